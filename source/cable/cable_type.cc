@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
+#include <taut/scene/places_by_x.h>
+
+#include <boost/math/tools/roots.hpp>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -18,7 +23,7 @@ namespace taut
   namespace
   {
     /// The entries of a cable in a parameter file.
-    class CableType : public BodyType
+    class CableType : public BodyType, public PlacesByX
     {
     public:
       void declare_parameters(dealii::ParameterHandler &prm) override;
@@ -29,6 +34,8 @@ namespace taut
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override;
       ContactSurface surface(const BodySetting &setting,
                              const std::vector<unsigned int> &boundaries) const override;
+      std::vector<double> places_at(const std::vector<double> &x,
+                                    const BodySetting &setting) const override;
 
     private:
       CableData data(const BodySetting &setting) const;
@@ -206,6 +213,46 @@ namespace taut
         surface.outward.push_back(force_per_length(result));
       }
       return surface;
+    }
+
+    std::vector<double> CableType::places_at(const std::vector<double> &x,
+                                             const BodySetting &setting) const
+    {
+      constexpr unsigned int samples_per_element = 16;
+      CableData result = data(setting);
+      result.length = find_length(result);
+      const Cable cable(result);
+      const unsigned int n = samples_per_element * result.n_elements;
+      const auto place = [&](const unsigned int i) { return result.length * i / n; };
+      std::vector<double> samples;
+      for (unsigned int i = 0; i <= n; ++i)
+        samples.push_back(cable.position({place(i)}).x);
+      const double same = 1e-9 * result.length;
+      std::vector<double> places;
+      for (const double wanted : x)
+      {
+        std::vector<double> found;
+        for (unsigned int i = 0; i <= n; ++i)
+          if (std::fabs(samples[i] - wanted) <= same)
+            found.push_back(place(i));
+          else if (i < n && std::fabs(samples[i + 1] - wanted) > same &&
+                   (samples[i] < wanted) != (samples[i + 1] < wanted))
+          {
+            const auto ends = boost::math::tools::bisect(
+                [&](const double s) { return cable.position({s}).x - wanted; }, place(i),
+                place(i + 1), boost::math::tools::eps_tolerance<double>());
+            found.push_back(.5 * (ends.first + ends.second));
+          }
+        if (found.size() != 1)
+          throw UserError(to_text(
+              "cable '", result.name, "' is ", found.empty() ? "nowhere" : "more than once",
+              " at x = ", wanted,
+              " m; at rest it reaches from x = ", *std::min_element(samples.begin(), samples.end()),
+              " to ", *std::max_element(samples.begin(), samples.end()),
+              " m. Write another x, or the unstressed arc length, 's, 0'"));
+        places.push_back(found[0]);
+      }
+      return places;
     }
 
     const Register<BodyType, CableType> cable("cable",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "catenary.h"
+#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/patterns.h>
@@ -60,6 +61,10 @@ namespace taut
     prm.add_parameter("Pitch stiffness", pitch_stiffness, "Of such a head [N m/rad]",
                       not_negative());
     prm.add_parameter("Pitch damping", pitch_damping, "Of such a head [N m s/rad]", not_negative());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of the contact wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Contact stiffness", contact_stiffness,
                       "Between head and contact wire; a number or 'rigid' [N/m]", Anything());
     prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",
@@ -216,6 +221,9 @@ namespace taut
     contact_link.travel = speed.travel;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
+    for (const TensionLength &part : line)
+      check_speed(scene.wires[part.contact_wires().front()], contact_link.speed,
+                  item.faster_than_waves, section);
     const bool has_wires = line.size() > 1 || line.front().contact_wires().size() > 1;
     if (item.strip_distance == 0.)
     {

@@ -38,6 +38,7 @@ namespace taut
       std::string speed = "250";
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
+      bool faster_than_waves = false;
       void declare(dealii::ParameterHandler &prm);
     };
     using Line = std::vector<TensionLength>;

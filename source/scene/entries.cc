@@ -3,6 +3,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/base/text.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/places_by_x.h>
 
 #include <cmath>
 #include <limits>
@@ -39,15 +40,24 @@ namespace taut
           components.push_back(parse_number(component, entry));
         attachment.place = parse_coordinates(components, entry);
         if (is_cable && (attachment.place.y != 0. || attachment.place.z != 0.))
-          throw EntryError(
-              entry,
-              "'" + point +
-                  "' is no place on a cable: write its unstressed arc length and a zero, 's, 0'");
+          throw EntryError(entry, "'" + point +
+                                      "' is no place on a cable: write its unstressed arc length "
+                                      "and a zero, 's, 0', or "
+                                      "'x = ...'");
         attachments.push_back(attachment);
       }
       if (attachments.empty())
         throw EntryError(entry, "no point after '@'; write 'x, y' or 'x, y, z'");
       return attachments;
+    }
+
+    /// The x of "x = 12.5" or "x = 10:5:30"; empty for other texts.
+    std::string text_of_x(const std::string &points)
+    {
+      const std::size_t equals = points.find('=');
+      return equals != std::string::npos && trim(points.substr(0, equals)) == "x"
+                 ? trim(points.substr(equals + 1))
+                 : "";
     }
   } // namespace
 
@@ -150,6 +160,36 @@ namespace taut
       return attachments;
     }
 
+    /// Attachments at places of a body that are named by their x.
+    std::vector<Attachment> at_x(Attachment attachment, const std::string &x, const Scene &scene,
+                                 const std::string &entry)
+    {
+      const CustomBody &body = scene.bodies[attachment.index];
+      const auto *const type = dynamic_cast<const PlacesByX *>(body.type.get());
+      if (type == nullptr)
+        throw EntryError(entry, "'x = " + x + "' is of places on a cable; body '" + body.name +
+                                    "' is none: write 'x, y' or 'x, y, z'");
+      std::vector<Attachment> attachments;
+      try
+      {
+        for (const double s :
+             type->places_at(parse_positions(x, entry), {body.name, body.origin, scene.gravity}))
+        {
+          attachment.place = {s};
+          attachments.push_back(attachment);
+        }
+      }
+      catch (const EntryError &)
+      {
+        throw; // about the body
+      }
+      catch (const UserError &e)
+      {
+        throw EntryError(entry, e.what());
+      }
+      return attachments;
+    }
+
     /// Throws an EntryError with names that attachments may have, the nearest one first.
     [[noreturn]] void refuse_unknown(const std::string &text, const std::string &name,
                                      const Scene &scene, const std::string &entry)
@@ -218,7 +258,11 @@ namespace taut
       attachment.kind = Attachment::Kind::body;
       attachment.index = find_name(scene.bodies, name);
       if (attachment.index != ground)
+      {
+        if (const std::string x = text_of_x(text.substr(at + 1)); !x.empty())
+          return at_x(attachment, x, scene, entry);
         return on_body(attachment, text.substr(at + 1), entry, is_on_cable(scene, attachment));
+      }
     }
     refuse_unknown(text, name, scene, entry);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
 #include "kinks.h"
+#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
@@ -243,6 +244,8 @@ namespace taut
       {
         load.name = loads.names[i];
         load.target = target;
+        if (load.kind == Load::Kind::moving && target.kind == Attachment::Kind::wire)
+          check_speed(scene.wires[target.index], load.speed, item.faster_than_waves, title);
         scene.loads.push_back(load);
       }
     }

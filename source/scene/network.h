@@ -72,7 +72,7 @@ namespace taut
       double law_range = 0.;
       std::vector<double> direction, axis;
       bool rotational = false, find_length = false, find_direction = false, turns = false,
-           straight = false;
+           straight = false, faster_than_waves = false;
       double damping = 0., gap = 0., length = 0.;
       std::string speed = "0", strip;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
@@ -88,7 +88,7 @@ namespace taut
     {
       std::string type = "point", on, magnitude = "0";
       std::vector<double> direction, axis;
-      bool rotational = false, acts_while_built = true;
+      bool rotational = false, acts_while_built = true, faster_than_waves = false;
       std::string speed = "0";
       void declare(dealii::ParameterHandler &prm);
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
+#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
@@ -310,6 +311,9 @@ namespace taut
       else
         items.set_number(0., "Gap", link.gap);
       items.set_number(0., "Speed", link.speed);
+      items.set_flag(false, "Faster than waves",
+                     link.moving() && link.to.kind == Attachment::Kind::wire &&
+                         is_faster_than_waves(scene.wires[link.to.index], link.speed));
       items.set_flag(false, "Straight", link.straight);
       items.set_text("0", "Height profile", link.profile.formula());
       items.set_flag(false, "Find length", link.form.find_length);
@@ -350,6 +354,9 @@ namespace taut
         loads.set_direction(load.rotational, load.direction, true);
         loads.set("Magnitude", load.magnitude.formula());
         loads.set_number(0., "Speed", load.speed);
+        loads.set_flag(false, "Faster than waves",
+                       load.kind == Load::Kind::moving &&
+                           is_faster_than_waves(scene.wires[load.target.index], load.speed));
         loads.set_flag(true, "Acts while built", load.acts_while_built);
       }
       Items probes(all, "Probes", "Probe");

@@ -170,11 +170,13 @@ namespace taut
                       "in that plane. 'stop': pushes them apart. 'dropper': pulls them together. "
                       "'sliding contact': a stop whose second end moves on a wire or a cable",
                       Selection("joint|ball joint|stop|dropper|sliding contact"));
-    prm.add_parameter("From", from,
-                      "'ground', 'ground @ x, y, z', a mass, 'mass @ x, y' beside the centre of "
-                      "one that rotates, "
-                      "'wire @ position' or 'body @ x, y, z'; several "
-                      "positions (numbers and ranges first:step:last) make one link each");
+    prm.add_parameter(
+        "From", from,
+        "'ground', 'ground @ x, y, z', a mass, 'mass @ x, y' beside the centre of one that "
+        "rotates, "
+        "'wire @ position', 'body @ x, y, z', or on a cable its unstressed arc length, 'cable @ s, "
+        "0', or its x at rest, 'cable @ x = 12.5'; several positions (numbers and ranges "
+        "first:step:last) make one link each");
     prm.add_parameter(
         "To", to,
         "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0', or the wires "
@@ -235,6 +237,10 @@ namespace taut
         "or strips of one head, whose forces add; each may run beyond the ends of its "
         "wire, where it does not touch",
         Anything());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -284,6 +290,10 @@ namespace taut
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load: a number, or a formula in t [m/s]",
                       Anything());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Acts while built", acts_while_built,
                       "Whether lengths of droppers are found with this load; wind blows later");
   }

@@ -5,6 +5,7 @@
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/output/line_constants.h>
+#include <taut/output/rest_limits.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/table_file.h>
 #include <taut/scene/unheld_wires.h>
@@ -157,6 +158,11 @@ namespace taut
                 slender->check_at_rest(displacement(start.reference, start.state, k));
           });
     }
+    BodyVectors at_start = start.reference.displacement;
+    for (std::size_t k = 0; k < at_start.size(); ++k)
+      at_start[k] = displacement(start.reference, start.state, k);
+    for (const std::string &warning : warnings_at_rest(model, bodies, at_start))
+      log << "Warning: " << warning << '\n';
     observed = std::make_unique<ObservedRun>(*motion, model, bodies, parameters.output.folder,
                                              parameters.output.interval);
     observed->stop_if(stop_asked);

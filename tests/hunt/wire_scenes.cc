@@ -89,8 +89,8 @@ namespace hunt
     draft.line() << "Load lift: On = head; Direction = 0, 1; Magnitude = "
                  << draft.draw(s.f(), 1, 5);
     draft.line() << "Link collector: Type = sliding contact; From = head; To = wire @ "
-                 << .2 * length
-                 << "; Direction = 0, 1; Speed = " << short_number(.2 * length / s.t);
+                 << .2 * length << "; Direction = 0, 1; Faster than waves = true; Speed = "
+                 << short_number(.2 * length / s.t);
     if (draft.random.chance(.7))
       draft.line() << "Link collector: Stiffness = " << draft.draw_decades(s.k(), 0, 5);
     draft.line() << "Statistics: Filter frequency = 0";

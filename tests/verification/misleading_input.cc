@@ -3,6 +3,8 @@
 // and are short, and a folder has the results of one run at a time.
 #include "scene_tests.h"
 
+#include <taut/scene/network_entries.h>
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -34,6 +36,46 @@ TEST(UnheldWire, that_something_holds_has_none)
        {"Support ends: Wire = line; Positions = 0, 10\n", "Wire line: Foundation stiffness = 10\n",
         "Link hook: Type = dropper; From = ground; To = line @ 5; Direction = 0, -1\n"})
     EXPECT_FALSE(has(log_of(line + holds), "neither a support")) << holds;
+}
+
+TEST(StartOfWires, that_hang_too_deep_has_warnings_in_the_log_and_of_the_check)
+{
+  // A parabola of sag f = m g L^2/(8 T) has the slope 4 f/L at its ends, less half an element.
+  const auto log = [](const double tension)
+  {
+    Session session(
+        "Gravity = 0, -9.81\nWire line: From = 0, 0; To = 10, 0; Components = string; "
+        "Mass per length = 1; Element size = 0.1; Tension = " +
+        number(tension) +
+        "\nSupport ends: Wire = line; Positions = 0, 10\nTime: Step = 0.01; End = 0.01\n");
+    session.simulation().check();
+    return session.log();
+  };
+  const double slope_of_1 = 9.81 * 10. / 2. * (1. - .01), sag_of_1 = 9.81 * 100. / 8.;
+  for (const double part : {.99, 1.01})
+  {
+    EXPECT_EQ(has(log(slope_of_1 / (part * .2)), "Warning: wire 'line' has a slope of "), part > 1.)
+        << part;
+    EXPECT_EQ(has(log(sag_of_1 / (part * 1.)), "m below the line between two supports"), part > 1.)
+        << part;
+  }
+  EXPECT_TRUE(has(log(sag_of_1 / 2.), "hangs 2 m below")) << log(sag_of_1 / 2.);
+}
+
+TEST(FasterThanWaves, is_allowed_where_an_entry_says_so_and_written_out)
+{
+  const std::string scene = line +
+                            "Support ends: Wire = line; Positions = 0, 10\nLoad push: Type = "
+                            "moving; On = line @ 1; Magnitude = 1; Speed = ";
+  EXPECT_TRUE(has(error_of([&] { Session(scene + "31.7\n"); }), "speed of the waves"));
+  EXPECT_EQ(error_of([&] { Session(scene + "31.6\n"); }), "");
+  Session allowed(scene + "40; Faster than waves = true\n");
+  const auto entries = taut::network_entries(allowed.simulation().scene());
+  EXPECT_TRUE(std::any_of(entries.begin(), entries.end(),
+                          [](const taut::WrittenEntry &entry) {
+                            return entry.path.back() == "Faster than waves" &&
+                                   entry.value == "true";
+                          }));
 }
 
 TEST(UpliftPositions, take_ranges)

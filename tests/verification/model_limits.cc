@@ -93,7 +93,8 @@ TEST(ModelLimits, a_contact_faster_than_the_waves)
 {
   const auto speed_warning = [](const std::string &speed)
   {
-    return find(run(line, {"Time.End=0.1", "Statistics.Window=", pantograph + "Speed=" + speed}),
+    return find(run(line, {"Time.End=0.1", "Statistics.Window=", pantograph + "Speed=" + speed,
+                           pantograph + "Faster than waves=true"}),
                 "speed");
   };
   const nlohmann::json speed = speed_warning("500");

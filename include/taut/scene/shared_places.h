@@ -12,8 +12,9 @@ namespace taut
   /**
    * Moves items of a wire that are nearly at one place to a common place, so that they share a node
    * of the grid. Items are supports, point masses, fixed link ends, point loads, ends of parts with
-   * another tension and the ends of the wire. Their distance must be below same_place(). It must also be below 1e-6 of the place, as
-   * for digits that were not written, or below 1e-8 of the length of the wire.
+   * another tension and the ends of the wire. Their distance must be below same_place(). It must
+   * also be below 1e-6 of the place, as for digits that were not written, or below 1e-8 of the
+   * length of the wire.
    */
   void share_places(Scene &scene);
 } // namespace taut
