@@ -121,9 +121,38 @@ subsection Output
 end
 """
 
+LINE = """
+set Generator = catenary
+subsection Catenary
+  set Tension lengths = ITEM
+  set Point masses    = ITEM
+  subsection Tension length ITEM
+    set Number of spans = 2
+  end
+  subsection Point mass ITEM
+    set Positions = 5
+    set Mass      = 1
+  end
+  subsection Contact wire
+    set Mass per length = 1
+    set Tension         = 1e4
+  end
+  subsection Messenger wire
+    set Mass per length = 1
+    set Tension         = 1e4
+  end
+end
+subsection Time
+  set End = 0
+end
+subsection Output
+  set Folder = run_of_line
+end
+"""
+
 GROUPS = {"Time": "Time and integration", "Partition": "Cutting into substructures", "Solver": "Solvers",
           "Output": "Output", "Statistics": "Statistics", "Study": "Error against cost",
-          "Sweep": "Many runs", "Catenary": "Generator `catenary`", "Network": "Generator `network`",
+          "Sweep": "Many runs", "Elasticity": "Elasticity of a line", "Catenary": "Generator `catenary`", "Network": "Generator `network`",
           "Body": "Solids, cables and rigid bodies", "Contact": "Contact of surfaces"}
 
 
@@ -157,7 +186,7 @@ def entries(text):
 
 def tidy(path):
     """Names of items are the reader's own."""
-    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Parameter", "Quantity",
+    named = ("Wire", "Support", "Tension length", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Parameter", "Quantity",
              "Contact")
     path = tuple(re.sub(rf"^({'|'.join(named)}) (ITEM|mass|pantograph)$", r"\1 <name>", part) for part in path)
     return tuple(re.sub(r"^Body (.*)$", r"Body <name> (Type = \1)", part) for part in path)
@@ -182,12 +211,15 @@ with tempfile.TemporaryDirectory() as folder:
     pathlib.Path(folder, "network.prm").write_text(NETWORK)
     run(folder, "network.prm")
     net = entries(pathlib.Path(folder, "run", "used.prm").read_text())
+    pathlib.Path(folder, "line.prm").write_text(LINE)
+    run(folder, "line.prm")
+    parts = entries(pathlib.Path(folder, "run_of_line", "used.prm").read_text())
     pathlib.Path(folder, "bodies.prm").write_text(BODIES)
     run(folder, "bodies.prm")
     bodies = entries(pathlib.Path(folder, "run_of_bodies", "used.prm").read_text())
 
 sections = {}
-for source in (line, net, bodies):
+for source in (line, parts, net, bodies):
     for path, name, value, text in source:
         text = re.sub(r"^(Listing of Parameters -+ )", "", text)
         if name == "Generator" and not path:

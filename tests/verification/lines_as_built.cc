@@ -267,14 +267,14 @@ TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
 
 TEST(LinesAsBuilt, bump_stops_and_lift_of_a_pantograph_act_as_their_formulas)
 {
-  // Under 300 N and the lift of 360 km/h, 100 m/s, of 0.002 and 0.003 N s^2/m^2. The head's spring
+  // Under 300 N and the lift of 180 km/h, 50 m/s, of 0.008 and 0.012 N s^2/m^2. The head's spring
   // of 5 kN/m is stopped at 30 mm by 50 kN/m.
   const double force = 300. + 30., on_head = 20.;
   int n_seen = 0;
   run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
 Catenary/Supports: Messenger stiffness = rigid
 Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 300; Start = 20;
-  Speed = 360; Lift = 0.002, 0.003; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0
+  Speed = 180; Lift = 0.008, 0.012; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0
 Statistics: Window =
 )",
             {},
