@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "element_matrices.h"
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
@@ -7,8 +8,6 @@
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-
-#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,73 +80,6 @@ namespace taut
         form.add(dof, value);
       }
     }
-
-    /// Tension at a place of a wire.
-    double tension_at(const Wire &wire, const double s)
-    {
-      double tension = wire.tension;
-      for (const TensionChange &c : wire.tension_changes)
-        if (s > c.from && s < c.to)
-          tension += c.change;
-      return tension;
-    }
-
-    /// M and K of one element after the other, and the matrix of a bedding of stiffness 1.
-    class ElementMatrices
-    {
-    public:
-      ElementMatrices(const Wire &wire, const bool beam, const unsigned int degree,
-                      const dealii::FiniteElement<1, 3> &element,
-                      const dealii::Quadrature<1> &quadrature)
-          : m(element.n_dofs_per_cell()), k(element.n_dofs_per_cell()),
-            bedding(element.n_dofs_per_cell()), wire(wire), beam(beam),
-            exact_mass(beam || wire.mass_matrix == MassMatrix::consistent),
-            values(element, quadrature,
-                   dealii::update_values | dealii::update_gradients |
-                       (beam ? dealii::update_hessians : dealii::update_default) |
-                       dealii::update_JxW_values),
-            own_mass_values(element,
-                            wire.mass_matrix == MassMatrix::lumped
-                                ? dealii::Quadrature<1>(dealii::QGaussLobatto<1>(degree + 1))
-                                : dealii::Quadrature<1>(dealii::QGauss<1>(degree)),
-                            dealii::update_values | dealii::update_JxW_values)
-      {
-      }
-
-      void compute(const dealii::DoFHandler<1, 3>::active_cell_iterator &cell, const double stretch)
-      {
-        values.reinit(cell);
-        if (!exact_mass)
-          own_mass_values.reinit(cell);
-        const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
-        const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
-        m = k = bedding = 0.;
-        for (unsigned int i = 0; i < m.m(); ++i)
-          for (unsigned int j = 0; j <= i; ++j)
-          {
-            for (const unsigned int q : mass_values.quadrature_point_indices())
-              m(i, j) += wire.mass_per_length * mass_values.shape_value(i, q) *
-                         mass_values.shape_value(j, q) * mass_values.JxW(q);
-            for (const unsigned int q : values.quadrature_point_indices())
-            {
-              const double JxW = values.JxW(q);
-              bedding(i, j) += values.shape_value(i, q) * values.shape_value(j, q) * JxW;
-              k(i, j) +=
-                  stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
-              if (beam)
-                k(i, j) += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
-                           (t * values.shape_hessian(j, q) * t) * JxW;
-            }
-          }
-      }
-
-      dealii::FullMatrix<double> m, k, bedding;
-
-    private:
-      const Wire &wire;
-      const bool beam, exact_mass;
-      dealii::FEValues<1, 3> values, own_mass_values;
-    };
   } // namespace
 
   WireComponent::Discretisation::Discretisation(const Wire &wire, const std::vector<double> &nodes,
