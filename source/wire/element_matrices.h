@@ -4,6 +4,8 @@
 
 #include <taut/scene/scene.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/fe/fe_values.h>
