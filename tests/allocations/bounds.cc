@@ -20,21 +20,35 @@ namespace
 {
   using namespace allocations;
 
-  /// Largest mean number of allocations of a step.
+  /// Largest mean number of allocations of a step. Steps of the real line come to lengths that are
+  /// new in the counted steps, for which F is set up once.
   const std::map<std::string, double> bounds = {
-      {"bar_on_two_cables", 3.49},   {"bar_on_wall", 0.03},
-      {"beam_angular_stop", 0.07},   {"beam_over_supports", 0.07},
-      {"block_impact", 0.07},        {"bouncing_bar", 0.03},
-      {"bracket_and_cables", 0.07},  {"bump_stop", 0.1},
-      {"cable_on_floor", 0.07},      {"en50318_2002_250", 0.14},
-      {"en50318_2002_250_two", 0.2}, {"en50318_2002_300", 0.14},
-      {"en50318_2002_sweep", 0.09},  {"en50318_in_space", 0.14},
-      {"guyed_mast", 0.07},          {"inclined_cable", 0.07},
-      {"line_of_cables", 0.14},      {"line_of_cables_with_weights", 0.14},
-      {"line_with_droppers", 0.09},  {"oscillator_with_stop", 0.03},
-      {"pendulum_cable", 0.6},       {"plucked_cable", 0.05},
-      {"real_line", 0.33},           {"snap_load", 0.07},
-      {"string_on_stop", 0.08},      {"swinging_load_on_guys", 0.07},
+      {"bar_on_two_cables", 3.49},
+      {"bar_on_wall", 0.03},
+      {"beam_angular_stop", 0.07},
+      {"beam_over_supports", 0.07},
+      {"block_impact", 0.07},
+      {"bouncing_bar", 0.03},
+      {"bracket_and_cables", 0.07},
+      {"bump_stop", 0.1},
+      {"cable_on_floor", 0.07},
+      {"en50318_2002_250", 0.14},
+      {"en50318_2002_250_two", 0.2},
+      {"en50318_2002_300", 0.14},
+      {"en50318_2002_sweep", 0.09},
+      {"en50318_in_space", 0.14},
+      {"guyed_mast", 0.07},
+      {"inclined_cable", 0.07},
+      {"line_of_cables", 0.14},
+      {"line_of_cables_with_weights", 0.14},
+      {"line_with_droppers", 0.09},
+      {"oscillator_with_stop", 0.03},
+      {"pendulum_cable", 0.6},
+      {"plucked_cable", 0.05},
+      {"real_line", 56.},
+      {"snap_load", 0.07},
+      {"string_on_stop", 0.08},
+      {"swinging_load_on_guys", 0.07},
       {"wire_in_space", 0.07},
   };
 
