@@ -284,7 +284,7 @@ def check_pipe():
 
 def check_line():
     """Each contact is drawn on its own wire, its loss in the one colour of all pictures, and the envelope is that of the fields."""
-    path = run("overlap_line", "Time/End=0.06", "Output/Field interval=0.02", "Output/Link interval=0.02")
+    path = run("real_line", "Time/End=0.06", "Output/Field interval=0.02", "Output/Link interval=0.02")
     figure = draw("displacement_map", path)
     for panel, wire in zip(figure.axes, ("contact 1", "contact 2")):
         ways = {line.get_label(): line for line in panel.get_lines() if line.get_label().endswith(wire)}
