@@ -86,7 +86,7 @@ Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
   {
     const Overrides brief = {"Time/End=0.3", "Statistics/Window="};
     const Overrides short_run = {"Time/End=0.05", "Statistics/Window="};
-    const std::string line = scene_file("en50318_2002_250"), overlap = scene_file("overlap_line"),
+    const std::string line = scene_file("en50318_2002_250"), overlap = scene_file("real_line"),
                       entry = "Catenary/Pantograph pantograph/Speed=";
     const std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs = {
         {history(roller("4")), history(roller("4 + 0*t"))},
