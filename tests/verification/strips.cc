@@ -214,8 +214,7 @@ TEST(Strips, an_overlap_hands_a_pantograph_over)
   {
     double largest = 0., before = 0.;
     bool both = false;
-    Session session(scene_file("real_line"),
-                    fixed + Overrides{std::string("Time/Step=") + step});
+    Session session(scene_file("real_line"), fixed + Overrides{std::string("Time/Step=") + step});
     std::size_t first = 0;
     while (session.simulation().scene().links[first].strip != "trailing")
       ++first;
