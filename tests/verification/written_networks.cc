@@ -36,14 +36,16 @@ namespace
     std::vector<std::string> left_out;
   };
 
-  /// All files of a run by their names; statistics without the names of scene and generator.
+  /// All tables of a run by their names, but for those that it read; statistics without the names
+  /// of scene and generator.
   std::map<std::string, std::string> results_of(const std::string &file, const Overrides &overrides)
   {
     Session session(file, Overrides{"Output.Interval=0", "Output.Link interval=0.01"} + overrides);
     session.run();
     std::map<std::string, std::string> results;
     for (const fs::directory_entry &entry : fs::directory_iterator(session.folder()))
-      if (entry.path().extension() == ".csv")
+      if (entry.path().extension() == ".csv" &&
+          !fs::exists(fs::path(file).parent_path() / entry.path().filename()))
         results[entry.path().filename().string()] = file_text(entry.path().string());
     const std::string path = session.folder() + "/statistics.json";
     if (!fs::exists(path)) // without time
