@@ -63,7 +63,8 @@ namespace taut
     /// Statistics of the steps so far.
     const Statistics &statistics() const { return figures; }
 
-    /// Quantities of the observers at the end of the run; before it, of those that it will have.
+    /// Quantities of the observers at the end of the run; before it, of the observers that it will
+    /// have.
     std::vector<NamedQuantity> observed_quantities() const;
 
     /// Number of steps that fit into the time of the run.

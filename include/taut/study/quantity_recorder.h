@@ -62,7 +62,7 @@ namespace taut
     Source find(const StudyParameters::QuantityItem &item, const std::string &title,
                 const Scene &scene, const Constraints &rows) const;
 
-    /// Those of the statistics, and then those of the others.
+    /// Quantities of the statistics, then quantities of the other observers.
     std::vector<NamedQuantity> numbers() const;
 
     Statistics statistics;
