@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/mechanism.h>
+#include <taut/scene/travel.h>
 
 #include <deal.II/lac/lapack_templates.h>
 
@@ -53,6 +54,7 @@ namespace taut
     }
     add_springs(scene);
     add_loads(scene);
+    prescribe_motions(scene);
     finish();
   }
 
@@ -99,6 +101,23 @@ namespace taut
                                                          { return f(0., t); }));
       else
         row.add_to(load.magnitude(0., 0.), constant_force);
+    }
+  }
+
+  void Mechanism::prescribe_motions(const Scene &scene)
+  {
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      const Mass &mass = scene.masses[dofs[i].mass];
+      if (!mass.is_prescribed[dofs[i].motion])
+        continue;
+      const Expression &u = mass.prescribed[dofs[i].motion];
+      constrained.push_back({i});
+      if (u.is_constant())
+        constrained.back().displacement = u(0., 0.);
+      else
+        constrained.back().motion = [u, mass](const double t)
+        { return u(mass.position.x + way(mass, t), t); };
     }
   }
 
@@ -149,6 +168,12 @@ namespace taut
     std::vector<double> a(n * n, 0.), scale(n, 1.), eigenvalues(n), work(8 * n + 64);
     K->visit([&](unsigned int i, unsigned int j, double value)
              { a[i * n + j] = a[j * n + i] = value; });
+    for (const ConstrainedDof &held : constrained)
+    {
+      for (int i = 0; i < n; ++i)
+        a[i * n + held.dof] = a[held.dof * n + i] = 0.;
+      a[held.dof * (n + 1)] = 1.;
+    }
     for (int i = 0; i < n; ++i)
       if (a[i * n + i] > 0.)
         scale[i] = 1. / std::sqrt(a[i * n + i]);

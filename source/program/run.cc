@@ -9,6 +9,7 @@
 #include <taut/base/write_file.h>
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
+#include <taut/output/scene_sketch.h>
 #include <taut/simulation/network_file.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/accuracy_search.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "catenary.h"
-#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/patterns.h>
@@ -50,6 +49,10 @@ namespace taut
                       List(not_negative(), 0));
     prm.add_parameter("Static force", static_force,
                       "Upwards on the lowest mass, net of the weight [N]", Double());
+    prm.add_parameter("Base motion", base_motion,
+                      "Of the roof that the lowest spring stands on, upwards: a formula in t, and "
+                      "in s, the x of the pantograph; empty: it stands still [m]",
+                      Anything());
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
     prm.add_parameter("Speed", speed, "A number, or a formula in t [km/h]", Anything());
     prm.add_parameter("Strip distance", strip_distance,
@@ -156,6 +159,8 @@ namespace taut
       scene.springs.push_back(spring);
     }
     add_bump_stops(name, item, first, scene);
+    if (!item.base_motion.empty())
+      add_base(name, item, first, scene);
     const auto push = [&](const std::string &what, const std::size_t mass, const double force)
     {
       Load load;
@@ -178,6 +183,33 @@ namespace taut
             Expression(to_text(std::setprecision(17), item.lift[i], "*((", item.speed, ")/3.6)^2"),
                        section + "/Speed", Expression::Variables::time);
     }
+  }
+
+  /// A node with a prescribed motion, on which spring, damper and bump stop of the lowest mass
+  /// stand.
+  void Catenary::add_base(const std::string &name, const PantographItem &item,
+                          const std::size_t first, Scene &scene) const
+  {
+    const std::string section = "Catenary/Pantograph " + name;
+    const std::size_t lowest = first + item.masses.size() - 1, index = scene.masses.size();
+    const Speed speed = speed_of(item, section);
+    Mass base;
+    base.name = name + " base";
+    base.origin = section;
+    base.position = {item.start, 0.};
+    base.weight = false;
+    base.is_prescribed[1] = true;
+    base.prescribed[1] = Expression(item.base_motion, section + "/Base motion");
+    base.speed = speed.constant;
+    base.travel = speed.travel;
+    scene.masses.push_back(base);
+    for (Spring &spring : scene.springs)
+      if (spring.to == lowest && spring.from == ground)
+        spring.from = index;
+    for (Link &stop : scene.links)
+      if (stop.to.kind == Attachment::Kind::mass && stop.to.index == lowest &&
+          stop.from.kind == Attachment::Kind::ground)
+        stop.from = {Attachment::Kind::mass, index, 0.};
   }
 
   void Catenary::add_bump_stops(const std::string &name, const PantographItem &item,
@@ -221,9 +253,7 @@ namespace taut
     contact_link.travel = speed.travel;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
-    for (const TensionLength &part : line)
-      check_speed(scene.wires[part.contact_wires().front()], contact_link.speed,
-                  item.faster_than_waves, section);
+    contact_link.faster_than_waves = item.faster_than_waves;
     const bool has_wires = line.size() > 1 || line.front().contact_wires().size() > 1;
     if (item.strip_distance == 0.)
     {

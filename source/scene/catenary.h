@@ -35,7 +35,7 @@ namespace taut
       std::vector<double> lift, stop_gaps, stop_stiffnesses;
       double static_force = 120., start = 60.;
       double strip_distance = 0., head_inertia = 0., pitch_stiffness = 0., pitch_damping = 0.;
-      std::string speed = "250";
+      std::string speed = "250", base_motion;
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
       bool faster_than_waves = false;
@@ -61,6 +61,8 @@ namespace taut
     void let_head_pitch(const std::string &name, const PantographItem &item, std::size_t head,
                         Scene &scene) const;
     void add_strip(Link strip, double x, bool has_several, const Line &line, Scene &scene) const;
+    void add_base(const std::string &name, const PantographItem &item, std::size_t first,
+                  Scene &scene) const;
     void add_bump_stops(const std::string &name, const PantographItem &item, std::size_t first,
                         Scene &scene) const;
 

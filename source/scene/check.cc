@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "check_parts.h"
+#include "wave_speed.h"
 
 #include <taut/scene/scene.h>
 #include <taut/scene/travel.h>
@@ -293,7 +294,10 @@ namespace taut
           fail(link, "Mass per length", what,
                "half of its mass would go to a body, which brings its own; set it to 0");
         if (link.moving())
+        {
           check_sliding(scene, link, what, end_time);
+          check_wave_speed(scene, link, end_time);
+        }
         else if (moves(link) || !link.profile.is_zero())
           fail(link, "Speed", what, "Speed and Height profile are for a sliding contact");
       }
@@ -328,6 +332,8 @@ namespace taut
       if (load.kind != Load::Kind::point && load.target.kind != Attachment::Kind::wire)
         fail(load, "On", what, "a distributed or moving load acts on a wire");
       check_attachment(scene, load.target, load.rotational, load, "On", what);
+      if (load.kind == Load::Kind::moving)
+        check_wave_speed(scene, load, end_time);
       if (!can_move(scene, load.target, load.rotational, load.direction))
         fail(load, load.rotational ? "Axis" : "Direction", what, "its target cannot ",
              load.rotational ? "turn about" : "move along",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
 #include "kinks.h"
-#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
@@ -167,6 +166,29 @@ namespace taut
     }
   }
 
+  namespace
+  {
+    void prescribe_motions(const Network::MassItem &item, Mass &mass)
+    {
+      const Speed speed = parse_speed(item.speed, mass.origin + "/Speed");
+      mass.speed = speed.constant;
+      mass.travel = speed.travel;
+      bool any = false;
+      for (int k = 0; k < 4; ++k)
+      {
+        if (item.prescribed[k].empty())
+          continue;
+        const std::string entry = std::string("Prescribed ") + motion_names[k];
+        mass.prescribed[k] = Expression(item.prescribed[k], mass.origin + "/" + entry);
+        mass.moves[k] = mass.is_prescribed[k] = any = true;
+      }
+      if (moves(mass) && !any)
+        throw EntryError(mass.origin + "/Speed",
+                         "it moves the place s of prescribed motions, and this mass has none; give "
+                         "it one, or set Speed to 0");
+    }
+  } // namespace
+
   void Network::add_masses(Scene &scene) const
   {
     for (std::size_t i = 0; i < masses.items.size(); ++i)
@@ -181,9 +203,9 @@ namespace taut
       mass.mass = item.mass;
       mass.inertia = item.inertia;
       mass.weight = item.weight;
-      const char *motions[4] = {"x", "y", "rotation", "z"};
       for (int k = 0; k < 4; ++k)
-        mass.moves[k] = contains(item.motions, motions[k]);
+        mass.moves[k] = contains(item.motions, motion_names[k]);
+      prescribe_motions(item, mass);
       std::copy(item.displacement.begin(), item.displacement.end(), mass.displacement);
       std::copy(item.velocity.begin(), item.velocity.end(), mass.velocity);
       scene.masses.push_back(mass);
@@ -228,6 +250,7 @@ namespace taut
       const Speed speed = parse_speed(item.speed, title + "/Speed");
       load.speed = speed.constant;
       load.travel = speed.travel;
+      load.faster_than_waves = item.faster_than_waves;
       if (moves(load) && load.kind != Load::Kind::moving)
         throw EntryError(title + "/Speed",
                          "a " + item.type + " load stands; set 'Type = moving', or Speed to 0");
@@ -244,8 +267,6 @@ namespace taut
       {
         load.name = loads.names[i];
         load.target = target;
-        if (load.kind == Load::Kind::moving && target.kind == Attachment::Kind::wire)
-          check_speed(scene.wires[target.index], load.speed, item.faster_than_waves, title);
         scene.loads.push_back(load);
       }
     }

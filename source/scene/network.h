@@ -12,6 +12,9 @@
 namespace taut
 {
   /// Scene generator `network`: any named wires, masses, springs, links, loads.
+  /// Of the motions of a mass, in their order.
+  constexpr const char *motion_names[4] = {"x", "y", "rotation", "z"};
+
   class Network : public SceneGenerator
   {
   public:
@@ -55,6 +58,8 @@ namespace taut
       double mass = 0., inertia = 0.;
       bool weight = true;
       std::vector<double> displacement = {0., 0., 0.}, velocity = {0., 0., 0.};
+      std::string prescribed[4]; ///< x, y, rotation, z
+      std::string speed = "0";
       void declare(dealii::ParameterHandler &prm);
     };
     struct SpringItem

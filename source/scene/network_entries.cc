@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
-#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
@@ -246,17 +245,23 @@ namespace taut
       {
         masses.begin(mass.name);
         masses.set("Position", coordinates(mass.position));
-        const char *const names[] = {"x", "y", "rotation", "z"};
+        if (mass.travel)
+          throw UserError("mass '" + mass.name +
+                          "' has a way that is not written out; its parameter file says it");
         std::string motions;
         for (int k = 0; k < 4; ++k)
           if (mass.moves[k])
-            motions += (motions.empty() ? "" : ", ") + std::string(names[k]);
+            motions += (motions.empty() ? "" : ", ") + std::string(motion_names[k]);
         masses.set_text("y", "Motions", motions);
         masses.set_number(0., "Mass", mass.mass);
         masses.set_number(0., "Inertia", mass.inertia);
         masses.set_flag(true, "Weight", mass.weight);
         masses.set_text("0, 0, 0", "Initial displacement", numbers(motions_of(mass.displacement)));
         masses.set_text("0, 0, 0", "Initial velocity", numbers(motions_of(mass.velocity)));
+        for (int k = 0; k < 4; ++k)
+          if (mass.is_prescribed[k])
+            masses.set(std::string("Prescribed ") + motion_names[k], mass.prescribed[k].formula());
+        masses.set_number(0., "Speed", mass.speed);
       }
       Items springs(all, "Springs", "Spring");
       for (const Spring &spring : scene.springs)
@@ -311,9 +316,7 @@ namespace taut
       else
         items.set_number(0., "Gap", link.gap);
       items.set_number(0., "Speed", link.speed);
-      items.set_flag(false, "Faster than waves",
-                     link.moving() && link.to.kind == Attachment::Kind::wire &&
-                         is_faster_than_waves(scene.wires[link.to.index], link.speed));
+      items.set_flag(false, "Faster than waves", link.faster_than_waves);
       items.set_flag(false, "Straight", link.straight);
       items.set_text("0", "Height profile", link.profile.formula());
       items.set_flag(false, "Find length", link.form.find_length);
@@ -354,9 +357,7 @@ namespace taut
         loads.set_direction(load.rotational, load.direction, true);
         loads.set("Magnitude", load.magnitude.formula());
         loads.set_number(0., "Speed", load.speed);
-        loads.set_flag(false, "Faster than waves",
-                       load.kind == Load::Kind::moving &&
-                           is_faster_than_waves(scene.wires[load.target.index], load.speed));
+        loads.set_flag(false, "Faster than waves", load.faster_than_waves);
         loads.set_flag(true, "Acts while built", load.acts_while_built);
       }
       Items probes(all, "Probes", "Probe");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "check_parts.h"
 #include "network.h"
-#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
@@ -192,6 +191,7 @@ namespace taut
       const Speed speed = parse_speed(item.speed, title + "/Speed");
       link.speed = speed.constant;
       link.travel = speed.travel;
+      link.faster_than_waves = item.faster_than_waves;
       link.straight = item.straight;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);
@@ -295,11 +295,7 @@ namespace taut
         link.name = links.names[i];
         link.from = from[0];
         link.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
-        const std::size_t first = scene.links.size();
         add_strip(link, wires, scene);
-        for (std::size_t k = first; k < scene.links.size(); ++k)
-          check_speed(scene.wires[scene.links[k].to.index], link.speed, item.faster_than_waves,
-                      title);
         continue;
       }
       const auto to = parse_attachments(item.to, scene, title + "/To");
@@ -324,8 +320,6 @@ namespace taut
         }
         set_direction(item, scene, title, link);
         set_length(scene, title, link);
-        if (link.moving() && link.to.kind == Attachment::Kind::wire)
-          check_speed(scene.wires[link.to.index], link.speed, item.faster_than_waves, title);
         check_found_direction(scene, title, link);
         scene.links.push_back(link);
       }

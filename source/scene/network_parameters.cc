@@ -140,6 +140,16 @@ namespace taut
     prm.add_parameter("Initial velocity", velocity,
                       "x, y, rotation and, if not 0, z [m/s, m/s, rad/s, m/s]",
                       List(Double(), 3, 4));
+    for (int k = 0; k < 4; ++k)
+      prm.add_parameter(
+          std::string("Prescribed ") + motion_names[k], prescribed[k],
+          std::string("Displacement of a motion that is not free, a formula in t, and "
+                      "in s, the x of the mass at t = 0 and its way since then, with "
+                      "Speed; empty: it is free or fixed [") +
+              (k == 2 ? "rad]" : "m]"));
+    prm.add_parameter("Speed", speed,
+                      "Of what bears a mass with prescribed motions, a number, or a formula in t: "
+                      "moves the place s in their formulas [m/s]");
   }
 
   void Network::SpringItem::declare(dealii::ParameterHandler &prm)

@@ -79,7 +79,8 @@ namespace taut
       {
         all(m.name, m.origin, m.position, m.mass, m.inertia, m.weight);
         for (unsigned int i = 0; i < 4; ++i)
-          all(m.moves[i], m.displacement[i], m.velocity[i]);
+          all(m.moves[i], m.displacement[i], m.velocity[i], m.is_prescribed[i], m.prescribed[i]);
+        all(m.speed, m.travel);
       }
       void write(const Spring &s)
       {

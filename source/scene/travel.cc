@@ -230,6 +230,8 @@ namespace taut
       prepare(link.travel);
     for (Load &load : scene.loads)
       prepare(load.travel);
+    for (Mass &mass : scene.masses)
+      prepare(mass.travel);
   }
 
   double time_of_way(const Speed &speed, const double way, const double latest)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "wave_speed.h"
 
-#include <taut/base/exceptions.h>
-#include <taut/base/text.h>
+#include "check_parts.h"
+
+#include <taut/scene/travel.h>
 
 #include <cmath>
 
@@ -16,26 +17,34 @@ namespace taut
           (wire.tension + 2. * std::sqrt(wire.foundation_stiffness * wire.bending_stiffness)) /
           wire.mass_per_length);
     }
+
+    template <typename Item>
+    void check_item(const Scene &scene, const Item &item, const Attachment &runs_on,
+                    const double end_time)
+    {
+      if (item.faster_than_waves || runs_on.kind != Attachment::Kind::wire)
+        return;
+      const Wire &wire = scene.wires[runs_on.index];
+      const double fastest = travel_range(item, end_time).fastest;
+      if (!(wire.tension > 0. && fastest >= wave_speed(wire)))
+        return;
+      throw EntryError(item.origin.empty() ? "" : item.origin + "/Speed",
+                       to_text(std::setprecision(4), fastest, " m/s = ", 3.6 * fastest,
+                               " km/h are not less than the speed of the waves of wire '",
+                               wire.name, "', ", wave_speed(wire), " m/s from its tension of ",
+                               wire.tension, " N and its mass of ", wire.mass_per_length,
+                               " kg/m, so that what is ahead does not know of it. Slow it down, or "
+                               "set 'Faster than waves = true' if that is meant"));
+    }
   } // namespace
 
-  bool is_faster_than_waves(const Wire &wire, const double speed)
+  void check_wave_speed(const Scene &scene, const Link &link, const double end_time)
   {
-    return wire.tension > 0. && std::fabs(speed) >= wave_speed(wire);
+    check_item(scene, link, link.to, end_time);
   }
 
-  void check_speed(const Wire &wire, const double speed, const bool is_allowed,
-                   const std::string &section)
+  void check_wave_speed(const Scene &scene, const Load &load, const double end_time)
   {
-    if (is_allowed || !is_faster_than_waves(wire, speed))
-      return;
-    throw EntryError(section + "/Speed",
-                     to_text(std::setprecision(4), std::fabs(speed),
-                             " m/s = ", 3.6 * std::fabs(speed),
-                             " km/h are not less than the speed of the "
-                             "waves of wire '",
-                             wire.name, "', ", wave_speed(wire), " m/s from its tension of ",
-                             wire.tension, " N and its mass of ", wire.mass_per_length,
-                             " kg/m, so that what is ahead does not know of it. Slow it down, or "
-                             "set 'Faster than waves = true' if that is meant"));
+    check_item(scene, load, load.target, end_time);
   }
 } // namespace taut

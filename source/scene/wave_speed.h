@@ -4,17 +4,13 @@
 
 #include <taut/scene/scene.h>
 
-#include <string>
-
 namespace taut
 {
-  /// Whether a contact or load runs on a wire under tension at least as fast as its slowest waves
-  /// across it: sqrt(T / m), or of a beam on a bedding sqrt((T + 2 sqrt(k EI)) / m). False for
-  /// wires without tension.
-  bool is_faster_than_waves(const Wire &wire, double speed);
-
-  /// Throws EntryError on the entry Speed of a section if it is, unless that is allowed.
-  void check_speed(const Wire &wire, double speed, bool is_allowed, const std::string &section);
+  /// Throws EntryError if a contact or a load runs on a wire under tension at least as fast, at
+  /// some time until @p end_time [s], as its slowest waves across it, and may not: sqrt(T / m), or
+  /// of a beam on a bedding sqrt((T + 2 sqrt(k EI)) / m). A wire without tension has no such speed.
+  void check_wave_speed(const Scene &scene, const Link &link, double end_time);
+  void check_wave_speed(const Scene &scene, const Load &load, double end_time);
 } // namespace taut
 
 #endif

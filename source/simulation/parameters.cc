@@ -91,7 +91,8 @@ namespace taut
     prm.add_parameter(
         "Start", start,
         "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
-        "at rest. 'given': initial displacements and velocities of the bodies",
+        "at rest, but for displacements of supports. 'given': initial displacements and velocities "
+        "of the bodies",
         Selection("equilibrium|undeformed|given"));
 
     prm.enter_subsection("Time");

@@ -292,6 +292,7 @@ namespace taut
         mesh(std::move(given)), options(chosen)
   {
     std::map<dealii::types::global_dof_index, std::function<double(double)>> motions;
+    std::map<dealii::types::global_dof_index, double> displacements;
     for (const auto &[dof, by] : conditions.prescribed())
     {
       if (!this->has_dof(dof))
@@ -301,10 +302,10 @@ namespace taut
       if (by->varies)
         motions[dof] = [value = by->value, x, c](const double t) { return value(x, t)[c]; };
       else
-        motions[dof] = [u = by->value(x, 0.)[c]](double) { return u; };
+        displacements[dof] = by->value(x, 0.)[c];
     }
-    if (!motions.empty())
-      this->prescribe(motions);
+    this->prescribe(motions);
+    this->prescribe_displacements(displacements);
     add_boundary_loads();
     if (norm(options.initial_velocity) > 0.)
     {

@@ -110,22 +110,38 @@ namespace taut
         throw EntryError("Sweep/Folder", "'" + folder.string() +
                                              "' holds a sweep with other entries: resume it as it "
                                              "was, or run with --overwrite");
-      const std::string changed = changed_copy(data_files(), folder.string());
-      if (!changed.empty())
-        throw EntryError("Sweep/Folder", "the file '" + changed +
-                                             "' is not what it was when the sweep in '" +
-                                             folder.string() +
-                                             "' began: put back the copy that is there, or run "
-                                             "with --overwrite");
+      is_resumed = true;
+      keep_data_files();
       continue_table(table);
       return;
     }
     fs::remove(table, error);
     std::ostringstream used;
     parameters.print(used);
-    copy_data_files(data_files(), folder.string());
+    keep_data_files();
     replace_file(entries, used.str());
     write_file(table, header);
+  }
+
+  /// Copies what the runs read into the folder, each file once. A resumed sweep has copies of what
+  /// was read before.
+  void Sweep::keep_data_files()
+  {
+    const fs::path folder = sweep_folder();
+    const std::size_t n_kept = kept.size();
+    for (const auto &[name, text] : data_files())
+    {
+      if (!kept.emplace(name, text).second)
+        continue;
+      std::error_code error;
+      if (is_resumed && fs::exists(folder / copied_name(name), error) &&
+          !changed_copy({{name, text}}, folder.string()).empty())
+        throw UserError("the file '" + name + "' is not what it was when the sweep in '" +
+                        folder.string() +
+                        "' began: put back the copy that is there, or run with --overwrite");
+    }
+    if (kept.size() > n_kept)
+      copy_data_files(kept, folder.string());
   }
 
   /// Counts the complete lines of the table and drops the bytes behind them.
@@ -222,6 +238,7 @@ namespace taut
             const std::string line = number < cases.size() ? run_case(number) : "";
             if (line.empty())
               break;
+            keep_data_files();
             own += line + '\n';
           }
         });

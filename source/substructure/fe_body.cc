@@ -233,21 +233,33 @@ namespace taut
   }
 
   template <int dim>
+  ConstrainedDof &FEBody<dim>::prescribed(const dealii::types::global_dof_index dof)
+  {
+    const unsigned int own = has_dof(dof) ? index(dof) : forms.size();
+    const auto found =
+        std::lower_bound(constrained.begin(), constrained.end(), own,
+                         [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
+    if (!has_dof(dof) || found == constrained.end() || found->dof != own ||
+        forms[own].index != decltype(LinearForm::index){own})
+      throw UserError("body '" + name() + "': no constraint prescribes DoF " + std::to_string(dof));
+    return *found;
+  }
+
+  template <int dim>
   void FEBody<dim>::prescribe(
       const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions)
   {
     for (const auto &[dof, motion] : motions)
-    {
-      const unsigned int own = has_dof(dof) ? index(dof) : forms.size();
-      const auto found =
-          std::lower_bound(constrained.begin(), constrained.end(), own,
-                           [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
-      if (!has_dof(dof) || found == constrained.end() || found->dof != own ||
-          forms[own].index != decltype(LinearForm::index){own})
-        throw UserError("body '" + name() + "': no constraint prescribes DoF " +
-                        std::to_string(dof));
-      found->motion = motion;
-    }
+      prescribed(dof).motion = motion;
+    finish();
+  }
+
+  template <int dim>
+  void FEBody<dim>::prescribe_displacements(
+      const std::map<dealii::types::global_dof_index, double> &displacements)
+  {
+    for (const auto &[dof, displacement] : displacements)
+      prescribed(dof).displacement = displacement;
     finish();
   }
 

@@ -246,6 +246,8 @@ namespace taut
         throw EntryError(
             origin(), name() + ": two supports hold the same motion of the same point; remove one");
       moving_constraints = moving_constraints || constrained[i].motion;
+      displaced_constraints =
+          displaced_constraints || constrained[i].motion || constrained[i].displacement != 0.;
     }
 
     check_numbers();

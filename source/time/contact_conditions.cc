@@ -46,7 +46,7 @@ namespace taut
   }
 
   void ContactConditions::set_problem(const State &before, const StepEquations &system,
-                                      const BodyVectors &P, const BodyVectors &lift)
+                                      const BodyVectors &P, const BodyVectors *const lift)
   {
     if (system.has_modes())
       system.set_modes(P, problem);

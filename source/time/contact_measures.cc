@@ -52,7 +52,7 @@ namespace taut
     for (std::size_t i = constraints.size(); i-- > 0;)
     {
       forces[i].window = times[i];
-      forces[i].mean = start.multiplier[i];
+      forces[i].last = forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
       if (constraints[i].cone.may_open())
         first_one_sided[energies.groups().of_constraint(i)] = i;
@@ -120,6 +120,7 @@ namespace taut
     {
       if (!constraints[i].cone.may_open())
         continue;
+      add_wire_end(i, state);
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, c);
     }
@@ -145,6 +146,15 @@ namespace taut
     }
   }
 
+  void ContactMeasures::add_wire_end(const std::size_t i, const State &state)
+  {
+    Force &f = forces[i];
+    if (f.last <= f.end.force || !(constraints.distance_beyond(i, state.time) > 0.))
+      return;
+    const State::LinkSpring &spring = state.link_springs[i];
+    f.end = {state.time, f.last, constraints[i].spring.energy(spring.u - spring.du)};
+  }
+
   template <typename Archive>
   void ContactMeasures::store(Archive &archive)
   {
@@ -152,7 +162,7 @@ namespace taut
     {
       forget_past(f);
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
-      archive &f.largest_impulse &f.gap &f.motion;
+      archive &f.largest_impulse &f.gap &f.motion &f.last &f.end;
     }
     archive &contact_gains &motion_gains &n_steps &found.gap &found.gap_constraint;
     archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;
@@ -183,7 +193,7 @@ namespace taut
   {
     force.event_impulse = value > 0. ? force.event_impulse + value * dt : 0.;
     force.largest_impulse = std::max(force.largest_impulse, force.event_impulse);
-    force.mean = value;
+    force.last = force.mean = value;
     force.impulse += value * dt;
     if (force.window > 0.)
     {

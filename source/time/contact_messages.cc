@@ -81,6 +81,18 @@ namespace taut
       add("contact_gap", s.gap, 0., 0., "'", constraints[s.gap_constraint].name,
           "' presses across a gap, or penetrates, by more than the motion of a step: take "
           "conditions on gaps");
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      if (forces[i].end.force > pressed_at_end * forces[i].peak)
+        result.push_back({"pressed_wire_end",
+                          to_text(std::setprecision(3), "'", constraints[i].name,
+                                  "' slid off the end of its wire at t = ", forces[i].end.time,
+                                  " s while ", forces[i].end.force,
+                                  " N pressed it: this force "
+                                  "vanished within a step, and ",
+                                  forces[i].end.energy,
+                                  " J in its contact spring with it. Raise this end of the wire"),
+                          forces[i].end.force, pressed_at_end * forces[i].peak, "N",
+                          forces[i].end.time});
     if (s.resolution > unresolved)
       add("peak_over_mean", s.resolution, unresolved, 0., "the largest force of '",
           constraints[s.resolution_row].name, "', ", s.peak,

@@ -35,17 +35,15 @@ namespace taut
         reference_gap[i] = reference.gap[i];
     }
     add_body_terms(reference.displacement);
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      supports_move = supports_move || structure[k].has_moving_constraints();
   }
 
   void GapTracker::predict(const State &before, const StepEquations &system, const BodyVectors &P,
-                           const BodyVectors &lift)
+                           const BodyVectors *const lift)
   {
     system.interface().contact_free_predictor(P, motion, motion_size);
-    if (supports_move)
+    if (lift)
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        motion[i] += evaluate(constraints[i].terms, lift);
+        motion[i] += evaluate(constraints[i].terms, *lift);
     for (const std::size_t i : constraints.sliding_rows())
     {
       const std::vector<Term> &terms = constraints[i].terms;

@@ -234,7 +234,7 @@ namespace taut
             // A body may have prestress as constructed.
             structure[k].internal_force(result.reference.displacement[k], {},
                                         result.reference.force[k]);
-            if (start == Start::given)
+            if (start != Start::equilibrium)
             {
               for (const ConstrainedDof &constraint : structure[k].constraints())
               {

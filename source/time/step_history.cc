@@ -80,9 +80,25 @@ namespace taut
     step_forces.external_size[k] = largest(body, P);
   }
 
+  /// Returns whether a prescribed increment of the body is not zero. What does not move in time is
+  /// where it belongs after its first increment.
+  bool StepHistory::set_prescribed(const std::size_t k, const State &state)
+  {
+    bool any = false;
+    for (const ConstrainedDof &constraint : structure[k].constraints())
+    {
+      const unsigned int dof = constraint.dof;
+      prescribed[k][dof] =
+          constraint.at(state.time) - (reference.displacement[k][dof] + state.U[k][dof]);
+      any = any || prescribed[k][dof] != 0.;
+    }
+    return any;
+  }
+
   void StepHistory::set_loads(const StepCoefficients &c, const StepEquations &equations,
                               State &state)
   {
+    lifts = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -90,13 +106,10 @@ namespace taut
         set_external_force(k, state.time);
       equations.bodies().remove_rounding(k, state.KU[k], state.balance[k]);
       set_load(k, c, state);
-      if (!body.has_moving_constraints())
+      if (!body.has_displaced_constraints() || !set_prescribed(k, state))
         continue;
-      std::vector<double> &L = prescribed[k];
-      for (const ConstrainedDof &constraint : body.constraints())
-        L[constraint.dof] = constraint.at(state.time) - (reference.displacement[k][constraint.dof] +
-                                                         state.U[k][constraint.dof]);
-      equations.lift(k, L, shared[k]);
+      lifts = true;
+      equations.lift(k, prescribed[k], shared[k]);
     }
   }
 
@@ -149,7 +162,7 @@ namespace taut
   void StepHistory::impose_lift(BodyVectors &dU) const
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
-      if (structure[k].has_moving_constraints())
+      if (structure[k].has_displaced_constraints())
         for (const ConstrainedDof &constraint : structure[k].constraints())
           dU[k][constraint.dof] = prescribed[k][constraint.dof];
   }

@@ -27,7 +27,9 @@ namespace taut
         if (support.fixed)
         {
           constrained.push_back({dof});
-          if (!support.prescribed.is_zero())
+          if (!support.prescribed.depends_on_time())
+            constrained.back().displacement = support.prescribed(0., 0.);
+          else
             constrained.back().motion = [u = support.prescribed](const double t)
             { return u(0., t); };
         }

@@ -4,6 +4,7 @@
 #include "cable/errors_of_runs.h"
 
 #include <taut/output/scene_report.h>
+#include <taut/output/scene_sketch.h>
 
 #include <cstdint>
 #include <cstring>
@@ -201,6 +202,25 @@ TEST(CablePlaces, places_in_space_are_shown)
   const auto rope = cells_of(start.substr(start.find("\nrope,") + 6));
   for (const auto &[i, expected] : {std::pair{0, 15.}, {1, lowest}, {2, 4.}})
     EXPECT_NEAR(std::stod(rope.at(i)), expected, 1e-6);
+}
+
+// Claim: the sketch of a tall scene fits on a page, with one scale, and guys go to their ground. A
+// mast of 40 m with two guys: one to a place 30 m away, one along its direction, 45 degrees.
+TEST(CablePlaces, a_sketch_of_a_guyed_mast_fits_on_a_page)
+{
+  Session session("Generator = network; Gravity = 0, 0; Start = undeformed\n"
+                  "Body mast: Type = cable; From = 0, 0, 0; To = 0, 40, 0; Unstressed length = "
+                  "39.99; Axial stiffness = 1e6; Mass per length = 1\n"
+                  "Link left: Type = dropper; From = ground @ -30, 0; To = mast @ 30, 0\n"
+                  "Link right: Type = joint; From = ground; To = mast @ 20, 0; Direction = 1, -1; "
+                  "Stiffness = 10\nTime: End = 0; Step = 0.01\n");
+  const ScenePlaces places =
+      places_in_space(session.simulation().scene(), session.simulation().structure());
+  write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
+  const std::string drawing = file_text(session.folder() + ".svg");
+  std::remove((session.folder() + ".svg").c_str());
+  // 50 x 40 m on 700 pixels of height: 17.5 pixels a metre, margins of 40.
+  expect(drawing, {"height=\"780\"", "heights x 1<", "M40 740 l-5 8 h10 z", "M915 740 l-5 8"});
 }
 
 TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)

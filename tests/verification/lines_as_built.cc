@@ -292,6 +292,47 @@ Statistics: Window =
   EXPECT_EQ(n_seen, 1);
 }
 
+// Claim: the base motion of a pantograph is that of the roof under its lowest spring. References: a
+// roof 10 mm up is a static force of 10 mm times the lowest stiffness, 500 N/m; a motion in time is
+// that over the place at a constant speed. What spring and damper make of a motion is the claim of
+// Oscillator.mass_on_a_base_that_moves.
+TEST(LinesAsBuilt, the_base_of_a_pantograph_is_a_roof_that_moves)
+{
+  const auto heights = [](const std::string &more)
+  {
+    std::vector<double> result;
+    run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 3
+Catenary/Supports: Messenger stiffness = rigid
+Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 500; Dampings = 10, 90;
+  Start = 20; Speed = 72; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0; )" +
+                  more + "\nTime: Step = 5e-4; End = 1; Scheme = Newmark\nStatistics: Window =\n",
+              {},
+              [&](const taut::StepView &view)
+              {
+                for (const std::size_t mass : {0, 1})
+                  result.push_back(displacement(view, point_of_mass(view, mass)));
+              });
+    return result;
+  };
+  const auto largest_difference = [](const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double result = a.size() == b.size() ? 0. : 1e300;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      raise(result, a[i] - b[i]);
+    return result;
+  };
+  const std::vector<double> still = heights("Static force = 100"),
+                            in_time = heights("Static force = 100; Base motion = "
+                                              "0.005*(1 - cos(12*t))"),
+                            on_track = heights("Static force = 100; Base motion = "
+                                               "0.005*(1 - cos(0.6*(s - 20)))");
+  EXPECT_GT(largest_difference(in_time, still), 1e-3);
+  EXPECT_LT(largest_difference(in_time, on_track), 1e-11);
+  EXPECT_LT(largest_difference(heights("Static force = 100; Base motion = 0.01"),
+                               heights("Static force = 105")),
+            1e-12);
+}
+
 namespace
 {
   /// Uplift of the reference line at rest under a pantograph that stands at x [m], over its force.

@@ -56,6 +56,24 @@ Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
       std::ofstream(folder / name) << text;
     }
 
+    void append_sweep(const std::string &entry, const std::string &values) const
+    {
+      std::ofstream(folder / "scene.prm", std::ios::app)
+          << "subsection Sweep\n  set Parameters = varied\n  subsection Parameter varied\n"
+             "    set Entries = "
+          << entry << "\n    set Values = " << values << "\n  end\nend\n";
+    }
+
+    void sweep(const bool resume) const
+    {
+      std::ostringstream log;
+      taut::Sweep all((folder / "scene.prm").string(),
+                      {"Output.Folder=" + (folder / "results").string()}, taut::Communicator(),
+                      log);
+      all.set_resume(resume);
+      all.run();
+    }
+
     /// Runs a file with results in a folder; returns the table of the contact.
     std::string run(const fs::path &file, const std::string &results,
                     const Overrides &overrides = {}, const bool resume = false) const
@@ -131,24 +149,36 @@ Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
 
   TEST_F(MeasuredData, no_sweep_goes_on_with_another_table)
   {
-    std::ofstream(folder / "scene.prm", std::ios::app)
-        << "subsection Sweep\n  set Parameters = mass\n  subsection Parameter mass\n"
-           "    set Entries = Network/Mass mass/Mass\n    set Values = 4, 5\n  end\nend\n";
-    const auto sweep = [&](const bool resume)
-    {
-      std::ostringstream log;
-      taut::Sweep all((folder / "scene.prm").string(),
-                      {"Output.Folder=" + (folder / "results").string()}, taut::Communicator(),
-                      log);
-      all.set_resume(resume);
-      all.run();
-    };
+    append_sweep("Network/Mass mass/Mass", "4, 5");
     sweep(false);
     EXPECT_TRUE(fs::exists(folder / "results/sweep/force.csv"));
     EXPECT_EQ(error_of([&] { sweep(true); }), "");
     write("data/profile.csv", "s, height\n0, 0\n4, 0.003\n10, 0.001\n");
     const std::string error = error_of([&] { sweep(true); });
     EXPECT_TRUE(has(error, "the file 'data/profile.csv' is not what it was when")) << error;
+  }
+
+  // The table of the last case is in no run before.
+  TEST_F(MeasuredData, a_sweep_over_tables_keeps_each_of_them)
+  {
+    write("gusts.csv", "t; F\n0; 60\n2; 65\n");
+    append_sweep("Network/Load force/Magnitude", "table(force.csv, F); table(gusts.csv, F)");
+    sweep(false);
+    const auto text = [&](const std::string &name)
+    {
+      std::ifstream in(folder / name);
+      return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    for (const char *const table : {"force.csv", "gusts.csv", "data/profile.csv"})
+      EXPECT_EQ(text(std::string("results/sweep/") + table), text(table)) << table;
+
+    // A sweep that was killed before its last case finds that another file has taken its place.
+    const std::string lines = text("results/sweep/sweep.csv");
+    std::ofstream(folder / "results/sweep/sweep.csv")
+        << lines.substr(0, lines.rfind('\n', lines.size() - 2) + 1);
+    write("gusts.csv", "t; F\n0; 60\n2; 66\n");
+    const std::string error = error_of([&] { sweep(true); });
+    EXPECT_TRUE(has(error, "the file 'gusts.csv' is not what it was when")) << error;
   }
 
   TEST_F(MeasuredData, tables_have_no_names_of_results)

@@ -69,6 +69,10 @@ TEST(FasterThanWaves, is_allowed_where_an_entry_says_so_and_written_out)
                             "moving; On = line @ 1; Magnitude = 1; Speed = ";
   EXPECT_TRUE(has(error_of([&] { Session(scene + "31.7\n"); }), "speed of the waves"));
   EXPECT_EQ(error_of([&] { Session(scene + "31.6\n"); }), "");
+  const auto of_time = [&](const char *const end)
+  { return error_of([&] { Session(scene + "20 + 20 * t\nTime: End = " + end + "\n"); }); };
+  EXPECT_TRUE(has(of_time("0.6"), "32 m/s = 115.2 km/h are not less")) << of_time("0.6");
+  EXPECT_EQ(of_time("0.3"), "");
   Session allowed(scene + "40; Faster than waves = true\n");
   const auto entries = taut::network_entries(allowed.simulation().scene());
   EXPECT_TRUE(std::any_of(entries.begin(), entries.end(),

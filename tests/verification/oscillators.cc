@@ -3,8 +3,11 @@
 // of textbooks. Sources: two masses with a spring and a damper between them and no force from
 // outside keep their momentum, and their distance is a damped oscillator of the reduced mass; a
 // mass on a spring whose other end moves by a (1 - cos omega t) moves by a [1 - (Omega^2 cos omega
-// t - omega^2 cos Omega t)/(Omega^2 - omega^2)].
+// t - omega^2 cos Omega t)/(Omega^2 - omega^2)]; so does one with a damper beside the spring, as
+// the complex amplitude of a base-excited oscillator and its free motion say.
 #include "scene_tests.h"
+
+#include <complex>
 
 using namespace verification;
 
@@ -119,4 +122,62 @@ Time: Scheme = backward Euler; Step = 1e6; End = 1e6
               EXPECT_NEAR(std::fabs(view.state.multiplier[0]), N, 1e-9 * N);
               EXPECT_NEAR(view.state.geometric_gap[0], 0., 1e-9 * u);
             });
+}
+
+namespace
+{
+  /// A mass on a spring and a damper, whose other end is a mass with this prescribed motion.
+  std::string mass_on_a_base(const std::string &motion)
+  {
+    return "Gravity = 0, 0; Start = equilibrium\nMass base: Position = 3, 0; " + motion +
+           "\nMass mass: Position = 3, 1; Mass = 2; Motions = y\n"
+           "Spring spring: From = base; To = mass; Direction = 0, 1; Stiffness = 800; Damping = 6\n"
+           "Time: Scheme = Newmark; Step = 2e-4; End = 2\n";
+  }
+
+  std::vector<double> motion_of_the_mass(const std::string &motion)
+  {
+    std::vector<double> result;
+    run_scene(mass_on_a_base(motion), {},
+              [&](const taut::StepView &view)
+              { result.push_back(displacement(view, point_of_mass(view, 1))); });
+    return result;
+  }
+} // namespace
+
+TEST(Oscillator, mass_on_a_base_that_moves)
+{
+  using Complex = std::complex<double>;
+  const double m = 2., k = 800., c = 6., a = .01, omega = 8.;
+  const Complex i(0., 1.);
+  // m u" + c u' + k u = k b + c b' under b = a (1 - cos omega t), from rest.
+  const Complex H = (k + i * omega * c) / (k - m * omega * omega + i * omega * c);
+  const double decay = .5 * c / m, natural = std::sqrt(k / m - decay * decay);
+  const double u0 = -(a - a * H.real()), v0 = -a * omega * H.imag();
+  const auto expected = [&](const double t)
+  {
+    const double forced = a - a * (H * std::exp(i * omega * t)).real(),
+                 free =
+                     std::exp(-decay * t) * (u0 * std::cos(natural * t) +
+                                             (v0 + decay * u0) / natural * std::sin(natural * t));
+    return forced + free;
+  };
+  const std::vector<double> of_time = motion_of_the_mass("Prescribed y = 0.01*(1 - cos(8*t))");
+  double error = 0.;
+  for (std::size_t n = 0; n < of_time.size(); ++n)
+    raise(error, of_time[n] - expected(2e-4 * n));
+  figure("mass on a base that moves, largest error over the way of the base", error / a);
+  EXPECT_LT(error, 1e-4 * a);
+
+  // The same base on a track: b(s) with s = 3 + 20 t, and with a speed in time whose way is known.
+  const std::vector<double> of_place =
+      motion_of_the_mass("Prescribed y = 0.01*(1 - cos(0.4*(s - 3))); Speed = 20");
+  ASSERT_EQ(of_place.size(), of_time.size());
+  const std::vector<double> of_speed =
+      motion_of_the_mass("Prescribed y = 0.01*(1 - cos(8*sqrt((s - 3)/5))); Speed = 10*t");
+  for (std::size_t n = 0; n < of_time.size(); ++n)
+  {
+    EXPECT_NEAR(of_place[n], of_time[n], 1e-13);
+    EXPECT_NEAR(of_speed[n], of_time[n], 1e-11);
+  }
 }

@@ -109,6 +109,45 @@ TEST(Strips, strings_share_the_force_of_a_moving_strip_like_their_tensions)
   }
 }
 
+// Claim: each wire has the strip at its own place. Strings whose mass is a thousandth of the head's
+// are springs, of stiffness T L / (s (L - s)). Expected: the forces are in the ratio of these
+// stiffnesses at the places under the strip. The ratio goes from 0.44 to 1.9.
+TEST(Strips, strings_of_unequal_ends_share_the_force_by_the_place_of_the_strip)
+{
+  const auto wire = [](const std::string &name, const double from, const double to, const double z)
+  {
+    return "Wire " + name + ": From = " + number(from) + ", 0, " + number(z) +
+           "; To = " + number(to) + ", 0, " + number(z) +
+           "; Components = string; Mass per length = 1e-5; Tension = 2e4; Element size = 0.025\n"
+           "Support ends " +
+           name + ": Wire = " + name + "; Positions = 0, " + number(to - from) + "\n";
+  };
+  const auto flexibility = [](const double s, const double L) { return s * (L - s) / L; };
+  const double begin = 3., speed = 10.;
+  double error = 0., least = 1e300, largest = 0.;
+  run_scene("Gravity = 0, 0; Start = equilibrium\n" + wire("one", 0., 10., 0.) +
+                wire("two", 2., 14., .4) + "Mass head: Position = " + number(begin) +
+                ", 0; Mass = 0.5; Motions = y\n"
+                "Link strip: Type = sliding contact; From = head; To = one, two; "
+                "Direction = 0, 1; Speed = " +
+                number(speed) +
+                "\nLoad push: Type = point; On = head; Magnitude = 60\n"
+                "Time: Step = 1e-3; End = 0.5\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              const double x = begin + speed * view.state.time,
+                           expected = flexibility(x, 10.) / flexibility(x - 2., 12.),
+                           ratio = share(view, 1) / share(view, 0);
+              raise(error, std::max(error, std::fabs(ratio / expected - 1.)));
+              least = std::min(least, ratio);
+              largest = std::max(largest, ratio);
+            });
+  figure("strip on unequal strings, relative error of the ratio", error, "1");
+  EXPECT_LT(error, 5e-3);
+  EXPECT_GT(largest, 4. * least);
+}
+
 // Claim: a wire that begins or ends above the strip takes over without a step. The second wire is
 // 20 mm higher than the first one where it begins, and falls by 4 mm a metre. Expected: the sum of
 // the forces is as smooth as the step is short, both to the wire and back from it.
@@ -177,14 +216,16 @@ TEST(Strips, a_wire_that_begins_below_the_strip_is_refused)
   EXPECT_TRUE(has(error, "Raise this end")) << error;
 }
 
-// Claim: what the spring of a contact has stored is lost where the wire ends, and the run goes on.
-// The wire is pressed where it ends. Expected: no energy is said to come from the step, and the
-// head falls back to the first wire.
+// Claim: what the spring of a contact has stored is lost where the wire ends, the run goes on, and
+// a warning says so. The wire is pressed where it ends. Expected: no energy is said to come from
+// the step, the head falls back to the first wire, and the warning has the force and the energy of
+// the spring, N^2 / (2 k).
 TEST(Strips, a_wire_may_end_while_it_is_pressed)
 {
   for (const char *const stiffness : {"5e4", "rigid"})
   {
     double before = 0., at_the_end = 0.;
+    taut::ContactMeasures::WireEnd end;
     Session session(begin_and_end(.02, -.01, stiffness), {});
     session.run(
         [&](const taut::StepView &view)
@@ -196,10 +237,17 @@ TEST(Strips, a_wire_may_end_while_it_is_pressed)
             EXPECT_EQ(share(view, 1), 0.);
           }
           at_the_end = view.measures.summary().relative_energy;
+          end = view.measures.wire_end(1);
         });
     EXPECT_GT(before, 1.) << "the wire has to be pressed where it ends";
     EXPECT_LT(at_the_end, .01);
     EXPECT_FALSE(has(session.log(), "unilateral links")) << session.log();
+    EXPECT_EQ(end.force, before);
+    EXPECT_NEAR(end.time, 1.2, 2e-3);
+    const double k = std::string(stiffness) == "rigid" ? 1e300 : 5e4;
+    EXPECT_NEAR(end.energy, .5 * before * before / k, 1e-12);
+    EXPECT_TRUE(has(session.log(), "'strip on two' slid off the end of its wire at t = 1.2"))
+        << session.log();
   }
 }
 

@@ -46,6 +46,7 @@ namespace taut
 
     void add_springs(const Scene &scene);
     void add_loads(const Scene &scene);
+    void prescribe_motions(const Scene &scene);
 
     std::vector<Dof> dofs;
   };

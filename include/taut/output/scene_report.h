@@ -26,10 +26,6 @@ namespace taut
   /// Prints the scene as read: tables of wires, supports, masses, springs, links, loads and probes,
   /// with units. Places on cables are arc lengths, followed by places in space.
   void print_scene(const Scene &scene, const ScenePlaces &places, std::ostream &out);
-
-  /// Draws the geometry at U = 0 along x and y as SVG, with exaggerated heights if the scene is
-  /// much longer than high. Throws UserError.
-  void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path);
 } // namespace taut
 
 #endif

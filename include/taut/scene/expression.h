@@ -71,6 +71,10 @@ namespace taut
     /// True for a formula that is a number equal to zero.
     bool is_zero() const { return !compiled && constant == 0.; }
 
+    /// True for a formula that has one value: it may be written with functions, but has no
+    /// variable.
+    bool is_constant() const { return !varies; }
+
     /// True if the formula mentions t.
     bool depends_on_time() const { return time_dependent; }
 

@@ -173,6 +173,13 @@ namespace taut
     bool weight = true;
     double displacement[4] = {0., 0., 0., 0.}; ///< at t = 0 [m, m, rad, m]
     double velocity[4] = {0., 0., 0., 0.};     ///< at t = 0 [m/s, m/s, rad/s, m/s]
+
+    /// Motions that are not free but u(s, t), such as those of the base of a pantograph [m, m, rad,
+    /// m]. s is the x of the mass at t = 0 and its way along the line since then [m].
+    bool is_prescribed[4] = {false, false, false, false};
+    Expression prescribed[4];
+    double speed = 0.;                         ///< along the line [m/s]
+    std::shared_ptr<const Travel> travel = {}; ///< way in time; null: the constant speed
   };
 
   /// Index of the ground in a spring.
@@ -290,6 +297,7 @@ namespace taut
 
     /// Way of the `to` end in time; null: the constant speed.
     std::shared_ptr<const Travel> travel = {};
+    bool faster_than_waves = false; ///< may outrun the waves of its wire, else an error
 
     /// Of a sliding contact: the name of its strip, if that may touch several wires, each by a link
     /// of its own. Such a link may run beyond the ends of its wire, where it does not touch. Empty:
@@ -337,6 +345,7 @@ namespace taut
 
     /// Way of a moving force in time; null: the constant speed.
     std::shared_ptr<const Travel> travel = {};
+    bool faster_than_waves = false; ///< may outrun the waves of its wire, else an error
 
     /// False: form finding of droppers leaves the load out.
     bool acts_while_built = true;

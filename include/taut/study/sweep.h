@@ -3,6 +3,7 @@
 #define taut_sweep_h
 
 #include <taut/base/communicator.h>
+#include <taut/base/data_files.h>
 #include <taut/simulation/parameters.h>
 #include <taut/study/case_runner.h>
 
@@ -47,6 +48,7 @@ namespace taut
     std::string sweep_folder() const;
     void name_columns();
     void prepare_folder();
+    void keep_data_files();
     void continue_table(const std::string &table);
     void share_columns();
     std::size_t run_batch(std::size_t n_each);
@@ -64,6 +66,8 @@ namespace taut
     std::vector<std::string> names; ///< of the quantities, "item: quantity [unit]"
     std::string header;
     std::size_t n_done = 0;
+    bool is_resumed = false;
+    DataFiles kept; ///< in the folder, as this worker read them
     std::function<int()> stop_asked;
   };
 } // namespace taut

@@ -95,6 +95,11 @@ namespace taut
     void prescribe(
         const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions);
 
+    /// Gives constant displacements [m] to DoFs that the constraints prescribe. Throws as
+    /// prescribe().
+    void
+    prescribe_displacements(const std::map<dealii::types::global_dof_index, double> &displacements);
+
     /// Displacement and velocity at t = 0 for Start::given, one entry a DoF [m, m/s].
     void set_initial_state(const dealii::Vector<double> &displacement,
                            const dealii::Vector<double> &velocity);
@@ -138,6 +143,7 @@ namespace taut
     void condense(const dealii::Vector<double> &P, std::vector<double> &result) const;
     std::vector<std::vector<double>> candidates(const Options &options) const;
     void find_null_space(const Options &options);
+    ConstrainedDof &prescribed(dealii::types::global_dof_index dof);
     void check_size(std::size_t size, const std::string &what) const;
     void check_matrix(const dealii::SparseMatrix<double> &A, const std::string &what) const;
 

@@ -31,10 +31,11 @@ namespace taut
   {
     unsigned int dof = 0;
 
-    /// u(t) [m, rad] at t [s]; none: u = 0.
+    /// u(t) [m, rad] at t [s]; none: u is `displacement` at all times.
     std::function<double(double)> motion = {};
+    double displacement = 0.; ///< [m, rad]
 
-    double at(double t) const { return motion ? motion(t) : 0.; }
+    double at(double t) const { return motion ? motion(t) : displacement; }
   };
 
   /**
@@ -78,8 +79,12 @@ namespace taut
     /// DoFs without mass whose row of C is zero, too: only elastic forces act on them.
     std::vector<unsigned int> quasi_static_dofs() const;
 
-    /// True if a support moves: an increment then has a prescribed part.
+    /// True if the displacement of a support changes in time.
     bool has_moving_constraints() const { return moving_constraints; }
+
+    /// True if a support has a displacement, constant or not: an increment may then have a
+    /// prescribed part.
+    bool has_displaced_constraints() const { return displaced_constraints; }
 
     /// The whole external force at time t [s]; P is resized. [N, N m]
     void external_force(double t, std::vector<double> &P) const;
@@ -233,7 +238,7 @@ namespace taut
     void require_linear(const char *function) const;
 
     std::string body_name, body_origin;
-    bool moving_constraints = false, is_finished = false;
+    bool moving_constraints = false, displaced_constraints = false, is_finished = false;
   };
 
   /// P += magnitude(t) * shape.

@@ -42,9 +42,9 @@ namespace taut
     void begin_step(const bool first) { is_first = first; }
 
     /// Sets the problem of the step from the state before it. The constraints are in their places
-    /// at the end of the step, @p P is P^, @p lift the prescribed motion.
+    /// at the end of the step, @p P is P^, @p lift the prescribed motion or null.
     void set_problem(const State &before, const StepEquations &system, const BodyVectors &P,
-                     const BodyVectors &lift);
+                     const BodyVectors *lift);
 
     /// Solves the problem for multipliers L with A dU = P^ + B L. state.multiplier becomes the
     /// force at the end of the step, or the mean force over the step. Errors come from @p check,

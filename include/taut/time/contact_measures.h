@@ -95,6 +95,27 @@ namespace taut
     /// Resolution above which the report mentions it.
     static constexpr double unresolved = 3.;
 
+    /// A contact that left its wire across an end of it and was pressed there.
+    struct WireEnd
+    {
+      double time = 0.;   ///< [s]
+      double force = 0.;  ///< in the step before; 0: there was none [N]
+      double energy = 0.; ///< that its spring held, and that nothing has from then on [J]
+
+      template <typename Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &time &force &energy;
+      }
+    };
+
+    /// The end with the largest force that a constraint crossed.
+    const WireEnd &wire_end(const std::size_t i) const { return forces[i].end; }
+
+    /// Part of its largest force at which a contact is pressed at the end of its wire: the force
+    /// that it loses at once is then a load of its own.
+    static constexpr double pressed_at_end = 1e-2;
+
     /// Warnings for the measures beyond their bounds.
     std::vector<Warning> warnings() const;
 
@@ -114,9 +135,10 @@ namespace taut
       double window = 0.;                              ///< [s]; 0: one step
       std::vector<std::pair<double, double>> impulses; ///< time and impulse until then
       std::size_t first = 0;                           ///< of the impulses in the window
-      double impulse = 0., mean = 0., peak = 0., mean_peak = 0.;
+      double impulse = 0., last = 0., mean = 0., peak = 0., mean_peak = 0.;
       double event_impulse = 0., largest_impulse = 0.;
       double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
+      WireEnd end;
     };
 
     template <typename Archive>
@@ -129,6 +151,7 @@ namespace taut
     std::string energy_message(const Summary &s) const;
     std::string remedy() const;
     void add_gap(std::size_t i, const State &state, const StepCoefficients &c);
+    void add_wire_end(std::size_t i, const State &state);
     void measure_rest(const State &start);
     std::vector<double> resolved_times() const;
 

@@ -31,9 +31,9 @@ namespace taut
     void count_motions(const BodyVectors &U);
 
     /// Begins a step: motion of the constraints without multipliers, under P^ = @p P and the
-    /// prescribed motion @p lift, and the places of moving constraints.
+    /// prescribed motion @p lift (null: none), and the places of moving constraints.
     void predict(const State &before, const StepEquations &system, const BodyVectors &P,
-                 const BodyVectors &lift);
+                 const BodyVectors *lift);
 
     /// Gap at the end of the step without the motion of the constraint, after predict().
     double free_gap(std::size_t i, const State &before) const;
@@ -96,7 +96,6 @@ namespace taut
     const Constraints &constraints;
     const TurningConstraints &turning;
     const Reference &reference;
-    bool supports_move = false;         ///< of a body of this rank
     std::vector<double> reference_gap;  ///< of fixed constraints
     std::vector<double> gap_correction; ///< of moving constraints: first gap minus that from
                                         ///< displacements, as rounding would be a force

@@ -23,7 +23,8 @@ namespace taut
   /**
    * The start of a run at t = 0. An equilibrium is the reference itself, with U = 0; otherwise the
    * undeformed system is the reference. Given displacements and velocities come from
-   * Substructure::initial_state(); prescribed DoFs start without velocity.
+   * Substructure::initial_state(). Prescribed DoFs start where they are at t = 0, without velocity
+   * unless they move.
    *
    * Bodies to be linearised move by large amounts until the reference is found. Then linear bodies
    * replace them in @p structure, see SlenderBody::linearised(). At an equilibrium this also

@@ -34,8 +34,8 @@ namespace taut
     /// dU, after StepEquations::find_increments() replaced loads().
     BodyVectors &increments() { return shared; }
 
-    /// Increments of prescribed DoFs; zero for other DoFs [m, rad].
-    const BodyVectors &lift() const { return prescribed; }
+    /// Increments of prescribed DoFs; zero for other DoFs [m, rad]. Null: all are zero.
+    const BodyVectors *lift() const { return lifts ? &prescribed : nullptr; }
 
     /// Sets the prescribed increments in @p dU.
     void impose_lift(BodyVectors &dU) const;
@@ -58,6 +58,7 @@ namespace taut
 
   private:
     void set_external_force(std::size_t k, double time);
+    bool set_prescribed(std::size_t k, const State &state);
     void set_load(std::size_t k, const StepCoefficients &c, const State &state);
 
     const Structure &structure;
@@ -66,6 +67,7 @@ namespace taut
     BodyVectors shared, prescribed;
     std::vector<double> known_v, mean_a; ///< as long as the longest body
     std::vector<double> damping_of_tile, inertia_of_tile;
+    bool lifts = false;
   };
 } // namespace taut
 

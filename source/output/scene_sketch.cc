@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/memory.h>
+#include <taut/base/write_file.h>
+#include <taut/output/scene_sketch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// A drawing on a page of at most 1000 x 700 pixels.
+    class Sketch
+    {
+    public:
+      void include(const Coordinates &p)
+      {
+        left = std::min(left, p.x);
+        right = std::max(right, p.x);
+        bottom = std::min(bottom, p.y);
+        top = std::max(top, p.y);
+      }
+
+      double lowest() const { return bottom; }
+
+      /// Begins the drawing, after all points were included.
+      void begin()
+      {
+        constexpr double most_width = 1000., most_height = 700., least_height = 120.;
+        if (left > right) // nothing to draw
+          left = right = bottom = top = 0.;
+        const double wide = right - left, high = top - bottom, span = std::max({wide, high, 1e-12});
+        sx = std::min(most_width / std::max(wide, 1e-12 * span),
+                      most_height / std::max(high, 1e-12 * span));
+        const double most = 1e3 * sx;
+        sy = high > 0. ? std::clamp(least_height / high, sx, most) : sx;
+        width = std::max(wide * sx, least_height);
+        height = std::max(high * sy, least_height);
+        out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\""
+            << std::max(width + 2. * margin, legend_width) << "\" height=\"" << height + 2. * margin
+            << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+            << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+      }
+
+      void line(const Coordinates &p, const Coordinates &q, const std::string &style)
+      {
+        out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\""
+            << Y(q) << "\" " << style << "/>\n";
+      }
+      void dot(const Coordinates &p, const double radius, const std::string &style)
+      {
+        out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" "
+            << style << "/>\n";
+      }
+      /// The ground: a triangle below a point.
+      void ground(const Coordinates &p)
+      {
+        out << "<path d=\"M" << X(p) << ' ' << Y(p) << " l-5 8 h10 z\" fill=\"#36c\"/>\n";
+      }
+      void label(const Coordinates &p, const std::string &name)
+      {
+        std::string safe;
+        for (const char c : name)
+          safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+        out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">" << safe << "</text>\n";
+      }
+
+      std::string end()
+      {
+        out << "<text x=\"8\" y=\"14\">black: wires and cables, blue: supports and ground, green: "
+               "masses, red: links (hollow: unilateral); heights x "
+            << sy / sx << "</text>\n</svg>\n";
+        return out.str();
+      }
+
+    private:
+      static constexpr double margin = 40., legend_width = 620.;
+      double X(const Coordinates &p) const
+      {
+        return margin + .5 * width + (p.x - .5 * (left + right)) * sx;
+      }
+      double Y(const Coordinates &p) const
+      {
+        return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy;
+      }
+
+      double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+      double sx = 1., sy = 1., width = 0., height = 0.;
+      std::ostringstream out;
+    };
+
+    bool is_ground(const Attachment &end)
+    {
+      return end.kind == Attachment::Kind::ground;
+    }
+
+    /// Where a link to the ground begins that acts at @p end. The ground has a place, or the link
+    /// comes from the lowest point of the scene.
+    Coordinates foot(const Link &link, const Attachment &ground, const Coordinates &place,
+                     const Coordinates &end, const double lowest)
+    {
+      if (ground.has_place)
+        return place;
+      const Coordinates &n = link.direction;
+      constexpr double flat = 1e-6;
+      if (link.rotational || link.turns || std::fabs(n.y) < flat * norm(n))
+        return end;
+      return add_scaled(end, (lowest - end.y) / n.y, n);
+    }
+
+    struct Ends
+    {
+      Coordinates begin, end; ///< the begin is that on the ground, if there is one
+    };
+
+    Ends ends(const Link &link, const Coordinates &from, const Coordinates &to, const double lowest)
+    {
+      if (is_ground(link.from))
+        return {foot(link, link.from, from, to, lowest), to};
+      if (is_ground(link.to))
+        return {foot(link, link.to, to, from, lowest), from};
+      return {from, to};
+    }
+
+    void include_all(const Scene &scene, const ScenePlaces &places, Sketch &sketch)
+    {
+      for (const Wire &wire : scene.wires)
+        for (const Coordinates &end : {wire.a, wire.b})
+          sketch.include(end);
+      for (const Mass &mass : scene.masses)
+        sketch.include(mass.position);
+      for (const std::vector<Coordinates> &cable : places.cables)
+        for (const Coordinates &p : cable)
+          sketch.include(p);
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+        for (const auto &[end, at] :
+             {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
+          if (end->kind == Attachment::Kind::body || end->has_place)
+            sketch.include(at);
+      const double lowest = sketch.lowest();
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+        if (const Link &link = scene.links[i]; is_ground(link.from) || is_ground(link.to))
+          sketch.include(ends(link, places.from[i], places.to[i], lowest).begin);
+    }
+
+    void draw_link(const Link &link, const Coordinates &from, const Coordinates &to, Sketch &sketch)
+    {
+      const auto [begin, end] = ends(link, from, to, sketch.lowest());
+      if (is_ground(link.from) || is_ground(link.to))
+        sketch.ground(begin);
+      sketch.line(begin, end, "stroke=\"#888\"");
+      sketch.dot(end, link.moving() ? 5. : 2.5,
+                 link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
+    }
+  } // namespace
+
+  void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path)
+  {
+    Sketch sketch;
+    include_all(scene, places, sketch);
+    sketch.begin();
+    const std::string thick = "stroke=\"black\" stroke-width=\"2\"";
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
+      draw_link(scene.links[i], places.from[i], places.to[i], sketch);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+      const std::vector<Coordinates> &cable = places.cables[b];
+      for (std::size_t j = 1; j < cable.size(); ++j)
+        sketch.line(cable[j - 1], cable[j], thick);
+      if (!cable.empty())
+        sketch.label(cable[0], scene.bodies[b].name);
+    }
+    for (const Wire &wire : scene.wires)
+    {
+      sketch.line(wire.a, wire.b, thick);
+      sketch.label(wire.a, wire.name);
+    }
+    for (const Spring &spring : scene.springs)
+      if (spring.from != ground && spring.to != ground)
+        sketch.line(scene.masses[spring.from].position, scene.masses[spring.to].position,
+                    "stroke=\"#393\"");
+    for (const Support &support : scene.supports)
+      for (const double s : support.positions)
+        sketch.dot(scene.wires[support.wire].at(s), 3.5, "fill=\"#36c\"");
+    for (const Mass &mass : scene.masses)
+    {
+      sketch.dot(mass.position, 5., "fill=\"#393\"");
+      sketch.label(mass.position, mass.name);
+    }
+    const std::string text = sketch.end();
+    check_memory();
+    write_file(path, text);
+  }
+} // namespace taut
