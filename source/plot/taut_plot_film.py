@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A film of wires and cables from their fields, without ParaView: GIF by Pillow, MP4 by ffmpeg."""
+"""A film of wires, cables, bodies and links from their fields, without ParaView: GIF by Pillow, MP4 by ffmpeg."""
 
 import os
 
@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import animation
 from matplotlib.collections import LineCollection
 from taut_plot_files import UserError, read_collection, read_vtu
-from taut_plot_line import line_bodies, lines_of
+from taut_plot_line import body_lines, line_bodies
 from taut_plot_solids import read_arrays
 from taut_plot_strips import read_strips
 from taut_plot_style import BLACK, COLOURS, LOSS, Page, panels
@@ -42,7 +42,7 @@ def read_frames(results):
             for w, line in wires.items():
                 lines.setdefault(names[w], []).append(np.stack([now[line[:-1]], now[line[1:]]], axis=1))
     for name, collection in bodies.items():
-        moved = [(time, lines_of(read_arrays(path))) for time, path in collection if time in kept]
+        moved = [(time, body_lines(read_arrays(path))) for time, path in collection if time in kept]
         if moved and all(line is not None for _, line in moved):
             times = times or [time for time, _ in moved]
             if len(moved) == len(times):
@@ -73,7 +73,7 @@ def write_film(results, kind, path):
     writer = writer_of(kind)
     times, lines = read_frames(results)
     if len(times) < 2:
-        return "fields of wires or cables at two times or more are needed (Output/Field interval)"
+        return "fields of wires or bodies at two times or more are needed (Output/Field interval)"
     factor = magnification(lines)
     lines = {name: line[:1] + factor * (line - line[:1]) for name, line in lines.items()}
     figure, grid = panels(1, 0.5 * Page.width)

@@ -25,6 +25,7 @@ plot = load_plot(SCRIPT)
 from taut_plot_compare import PICTURES as COMPARED, labels_of
 from taut_plot_files import read_collection
 from taut_plot_film import magnification
+from taut_plot_solids import outline
 from taut_plot_strips import power_spectrum, read_strips
 from taut_plot_style import LOSS, fit_texts, set_style
 
@@ -315,6 +316,19 @@ def check_shapes():
     close("guys of the sketch", guys, [[-6, 0, 0, 8], [6, 0, 0, 8]], 0.01)
     expect("height of the sketch", figure.get_figheight() < 1.5 * figure.get_figwidth(), figure.get_figheight())
 
+    path = run("beam_over_supports", "Time/End=0")
+    panel, = draw("sketch", path).axes
+    stops = next(line.get_xydata() for line in panel.get_lines() if line.get_label() == "stops and joints")
+    close("stops of the sketch", stops[:, 0], np.arange(21), 1e-6)
+    low, high = panel.get_ylim()
+    expect("a flat scene is drawn flat", 0.019 < high - low < 0.03 and np.abs(stops[:, 1]).max() < 1e-5, (low, high))
+    panel, = draw("sketch", run("line_of_cables", "Time/End=0")).axes
+    links = [line for lines in panel.collections if lines.get_label() == "links and guys" for line in lines.get_segments()]
+    expect("links of the sketch, without the sliding contact", len(links) == 27 and min(line[:, 1].min() for line in links) > -0.1,
+           len(links))
+    texts = [text.get_text() for text in panel.get_legend().get_texts()]
+    expect("names of bodies", texts[0] == "contact wire" and "messenger 2" in texts, texts)
+
     path = run("hanging_cable")
     results = plot.Results(str(path))
     expect("a static scene is complete", results.is_static and not results.is_partial)
@@ -326,7 +340,28 @@ def check_shapes():
     close("tension of the cable", lines.get_array(), arrays["tension"][arrays["connectivity"].reshape(-1, 2)].mean(axis=1))
     close("its shape", np.array(lines.get_segments()).reshape(-1, 2), arrays["positions"][arrays["connectivity"]][:, :2])
     film = program(path, "--film", "gif", "--plots", "sketch", "--format", "png")
-    expect("no film of one field", "no film: fields of wires or cables at two times" in film.stdout, film.stdout + film.stderr)
+    expect("no film of one field", "no film: fields of wires or bodies at two times" in film.stdout, film.stdout + film.stderr)
+
+
+def check_solids():
+    """Two squares with points of their own have six edges outside; contacts are drawn while they carry."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    edges = outline({"positions": np.concatenate([square, square + [1, 0, 0]]), "types": np.array([9, 9]),
+                     "connectivity": np.arange(8), "offsets": np.array([4, 8])})
+    close("edges of two squares", [len(edges), *edges.reshape(-1, 3).max(axis=0)], [6, 2, 1, 0])
+    expect("no edge inside", not any((edge[:, 0] == 1).all() for edge in edges))
+
+    path = run("block_impact", "Time/End=0.9", "Output/Field interval=0.3")
+    panel, = draw("contact_pressure", path).axes
+    x, pressure = panel.get_lines()[0].get_data()
+    expect("pressure at the last field with some", panel.get_title("left") == "wall, t = 0.6 s" and pressure.min() > 100,
+           panel.get_title("left"))
+    figure = draw("stress", path)
+    expect("a flat solid has a flat picture", figure.get_figheight() < 2, figure.get_figheight())
+    panel, = draw("contact_pressure", run("cable_on_floor", "Time/End=0")).axes
+    expect("a cable presses per length", panel.get_ylabel() == "force per length [N/m]", panel.get_ylabel())
+    figure = draw("contact_pressure", run("hertz_sphere"))
+    close("pressure over two axes", [len(figure.axes), figure.axes[0].collections[0].get_array().max()], [2, 101], 0.02)
 
 
 def check_film():
@@ -350,7 +385,7 @@ def check_film():
 
 
 for check in (check_contacts, check_strips, check_probes, check_links, check_sweep, check_study, check_several, check_sizes, check_pipe, check_line,
-              check_shapes, check_film):
+              check_shapes, check_solids, check_film):
     check()
     matplotlib.pyplot.close("all")
 finish()
