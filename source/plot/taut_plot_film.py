@@ -12,7 +12,8 @@ from taut_plot_solids import read_arrays
 from taut_plot_strips import read_strips
 from taut_plot_style import BLACK, COLOURS, GREY, LOSS, Page, panels, scale_of
 
-WRITERS = {"gif": ("pillow", "Pillow, the package python3-pil"), "mp4": ("ffmpeg", "the program ffmpeg")}
+# Of films: the writer of matplotlib, what it needs, and the package of Debian that has this.
+WRITERS = {"gif": ("pillow", "Pillow", "python3-pil"), "mp4": ("ffmpeg", "the program ffmpeg", "ffmpeg")}
 MOST_FRAMES = 240
 FRAMES_PER_SECOND = 20
 SEEN = 0.15  # of the height of the picture: motions that are smaller are magnified up to it
@@ -20,10 +21,10 @@ SEEN = 0.15  # of the height of the picture: motions that are smaller are magnif
 
 def writer_of(kind):
     """The writer of this kind of film; an error that says what is missing."""
-    name, needed = WRITERS[kind]
+    name, needed, package = WRITERS[kind]
     if not animation.writers.is_available(name):
-        other = [k for k, (w, _) in WRITERS.items() if animation.writers.is_available(w)]
-        raise UserError(f"--film {kind}: {needed} is missing; install it" + (f" or take --film {other[0]}" if other else ""))
+        other = [k for k, (w, *_) in WRITERS.items() if animation.writers.is_available(w)]
+        raise UserError(f"--film {kind}: {needed} is missing; install the package {package}" + (f" or take --film {other[0]}" if other else ""))
     return animation.writers[name](fps=FRAMES_PER_SECOND)
 
 

@@ -85,8 +85,8 @@ def run(name, *settings):
     return path
 
 
-def program(*words):
-    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], capture_output=True, text=True)
+def program(*words, **options):
+    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], capture_output=True, text=True, **options)
 
 
 def named(panel, label):
