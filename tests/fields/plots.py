@@ -34,6 +34,9 @@ def check_contacts():
     close("mean and three deviations", sorted(line.get_xdata()[0] for line in panel.get_lines()),
           FORCE.mean() + np.array([-3, 0, 3]) * FORCE.std())
 
+    expect("extremes of the histogram", f"smallest {FORCE.min():.1f} N, largest {FORCE.max():.1f} N" in panel.get_title("left"),
+           panel.get_title("left"))
+
     panel, = draw("force_by_span", path).axes
     parts = [FORCE[TIME <= 1], FORCE[TIME >= 1]]
     close("bars of the spans", [bar.get_height() for bar in panel.patches], [of(p) for of in (np.mean, np.max, np.std) for p in parts])
