@@ -95,9 +95,10 @@ def contact_pressure(results, _):
 
 
 def outline(arrays):
-    """The edges of a solid in the plane that only one of its cells has, [n, 2, 3], where they are; None for one in space."""
+    """The edges of a solid in the plane that only one of its cells has, [n, 2, 3], where they are; None for other bodies."""
     x, kinds = arrays["positions"].astype(float), arrays["types"]
-    if np.ptp(x[:, 2]) or not np.isin(kinds, (QUADRILATERAL, TRIANGLE)).all():
+    displacement = arrays.get("displacement", np.zeros_like(x))
+    if np.ptp(x[:, 2]) or displacement.shape != x.shape or not np.isin(kinds, (QUADRILATERAL, TRIANGLE)).all():
         return None
     begins = np.concatenate(([0], arrays["offsets"][:-1]))
     edges = np.concatenate([np.stack([arrays["connectivity"][begins[kinds == kind] + i],
@@ -106,8 +107,7 @@ def outline(arrays):
     # Each cell has points of its own: those at one place are one.
     _, place = np.unique(np.round(x / max(np.ptp(x, axis=0).max(), 1e-300), 7), axis=0, return_inverse=True)
     _, first, count = np.unique(np.sort(place.reshape(-1)[edges], axis=1), axis=0, return_index=True, return_counts=True)
-    now = x + arrays["displacement"] if "displacement" in arrays else x
-    return now[edges[first[count == 1]]]
+    return (x + displacement)[edges[first[count == 1]]]
 
 
 def triangles(arrays):

@@ -77,6 +77,9 @@ def check_solids():
     edges = outline({"positions": np.concatenate([square, square + [1, 0, 0]]), "types": np.array([9, 9]),
                      "connectivity": np.arange(8), "offsets": np.array([4, 8])})
     close("edges of two squares", [len(edges), *edges.reshape(-1, 3).max(axis=0)], [6, 2, 1, 0])
+    membrane = {"positions": square, "types": np.array([9]), "connectivity": np.arange(4), "offsets": np.array([4])}
+    expect("no outline of a membrane, which moves across its plane", outline({**membrane, "displacement": np.ones(4)}) is None)
+    close("an outline moves", outline({**membrane, "displacement": square}).reshape(-1, 3).max(axis=0), [2, 2, 0])
     expect("no edge inside", not any((edge[:, 0] == 1).all() for edge in edges))
 
     path = run("block_impact", "Time/End=0.9", "Output/Field interval=0.3")
