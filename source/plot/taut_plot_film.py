@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import animation
 from matplotlib.collections import LineCollection
 from taut_plot_files import UserError, read_collection, read_links, read_vtu
-from taut_plot_line import body_lines, line_bodies, sliding_contacts
+from taut_plot_line import LEAST_SLOPE, body_lines, line_bodies, sliding_contacts
 from taut_plot_solids import read_arrays
 from taut_plot_strips import read_strips
 from taut_plot_style import BLACK, COLOURS, GREY, LOSS, Page, panels, scale_of
@@ -104,11 +104,14 @@ def write_film(results, kind, path):
     every = np.concatenate([line.reshape(-1, 3) for line in lines.values()])
     (left, low, _), (right, high, _) = every.min(axis=0), every.max(axis=0)
     height = max(high - low, 1e-3 * (right - left))
-    margin = 0.01 * (right - left) or height
+    margin = max(0.01 * (right - left), (0.5 * height - (right - left)) / 2)  # slender scenes have room for their ticks
     panel.set_xlim(left - margin, right + margin)
     panel.set_ylim(low - 0.12 * height, high + 0.06 * height)
+    to_scale = height > LEAST_SLOPE * (right - left)
+    if to_scale:
+        panel.set_aspect("equal", adjustable="box")
     panel.set_xlabel("x [m]")
-    panel.set_ylabel("y [m]")
+    panel.set_ylabel("y [m]" + ("" if to_scale else ", at another scale"))
     strips = read_strips(results) if results.table("sliding.csv") else []
     marks = panel.scatter([], [], marker="^", s=36, zorder=3)
     with writer.saving(figure, path, dpi=110):

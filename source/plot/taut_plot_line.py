@@ -12,6 +12,7 @@ from taut_plot_solids import outline, read_arrays
 from taut_plot_style import BLACK, COLOURS, GREY, ORANGE, Page, legend_above, legend_below, panels
 
 NAMED = 6  # curves with names in a legend
+LEAST_SLOPE = 0.15  # height over width of what is drawn to scale
 LEAST_HEIGHT = 1e-3  # of a sketch, over its width: what is flatter is drawn flat
 LINE = 3  # number of VTK
 
@@ -107,7 +108,7 @@ def sketch(results, _):
     every = np.concatenate([points, *(link.reshape(-1, 3) for link in links)]) if links else points
     width, height = np.ptp(every[:, 0]), np.ptp(every[:, 1])
     slope = height / max(width, 1e-12 * height)
-    true = slope > 0.15
+    true = slope > LEAST_SLOPE
     inches = 3.4 if slope > 4 else min(1.25 * Page.width, max(1.4, Page.width * slope)) if true else 2.4
     figure, grid = panels(1, inches)
     panel = grid[0, 0]
