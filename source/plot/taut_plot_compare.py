@@ -37,7 +37,7 @@ def compared_force(runs, labels, options):
     strips = strips_by_name(runs)
     if not strips:
         return None, "no sliding contact in these runs"
-    figure, grid = panels(len(strips), 2.2)
+    figure, grid = panels(len(strips), 2.2, sharex=True)
     moves = all(strip.moves for some in strips.values() for _, strip in some)
     for panel, (name, some) in zip(grid[:, 0], strips.items()):
         texts = []
@@ -70,6 +70,8 @@ def compared_statistics(runs, labels, options):
                 panel.bar_label(bars, fmt="%.0f", fontsize="x-small")
         panel.axhline(0, color=GREY, linewidth=0.5)
         panel.set_xticks(range(len(kinds)), [kind for kind, _ in kinds])
+        panel.set_xlim(-0.5, len(kinds) - 0.5)
+        panel.margins(y=0.12)
         panel.set_ylabel("contact force [N]")
         panel.set_title(name, loc="left", pad=9)
     legend_of(grid[-1, 0], labels, 1.9)

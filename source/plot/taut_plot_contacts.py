@@ -36,7 +36,7 @@ def contact_panel(panel, strip, moves, window):
     for (wire, share), colour in zip(strip.shares.items(), SHARES):
         lines += panel.plot(at, strip.low_passed(share), color=colour, linewidth=0.8, label=f"share of '{wire}'")
     if strip.frequency:
-        what = "sum of the wires, " if strip.shares else ""
+        what = "their sum, " if strip.shares else ""
         lines += panel.plot(at, evaluated, color=BLUE, label=f"{what}low-passed at {strip.frequency:g} Hz")
     for begin, end in spans(at, force == 0):
         lines.append(panel.axvspan(begin, end, color=LOSS, alpha=0.4, linewidth=0.8, label="loss of contact"))
@@ -114,8 +114,8 @@ def force_histogram(results, options):
         handles = [panel.axvline(mean, color=RED, label="mean"),
                    *(panel.axvline(mean + side * 3 * deviation, color=ORANGE, linestyle="--", label=r"mean $\pm$ 3 $\sigma$")
                      for side in (1, -1))][:2]
-        panel.set_title(rf"{strip.name}: mean {mean:.1f} N, $\sigma$ {deviation:.1f} N, "
-                        rf"{mean - 3 * deviation:.1f} to {mean + 3 * deviation:.1f} N", loc="left")
+        panel.set_title(rf"{strip.name}: mean {mean:.1f} N, $\sigma$ {deviation:.1f} N, smallest {values.min():.1f} N, "
+                        f"largest {values.max():.1f} N", loc="left")
         panel.set_ylabel("samples [%]")
     if not handles:
         return None, "no contact force that changes in the window"

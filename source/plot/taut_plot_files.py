@@ -136,6 +136,11 @@ class Results:
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def name_of(self, stem):
+        """The body or contact whose files have this name: what is no letter, digit or hyphen is an underscore in it."""
+        listed = ",".join(self.entries.get(entry, "") for entry in ("Bodies", "Contacts")).split(",")
+        return next((name.strip() for name in listed if re.sub(r"[^A-Za-z0-9\x80-\U0010ffff-]", "_", name.strip()) == stem), stem)
+
     def has(self, name):
         return os.path.exists(self.path(name))
 
@@ -255,12 +260,13 @@ def read_vtu(path):
         raise UserError(f"cannot read '{path}': {error}") from error
 
 
-def read_links(path):
-    """The ends of each link of links.vtu where they are, [n, 3] a link."""
+def read_links(path, without=()):
+    """The ends of each link of links.vtu where they are, [n, 3] a link, but those of these names."""
     try:
-        _, arrays, lines = read_lines(path)
+        root, arrays, lines = read_lines(path)
         now = arrays["positions"].astype(float) + arrays["displacement"].astype(float)
-        return [now[line] for line in lines if len(line) > 1]
+        return [now[line] for line, name in zip(lines, texts(root.find(".//CellData/Array")))
+                if len(line) > 1 and name not in without]
     except DAMAGED as error:
         raise UserError(f"cannot read '{path}': {error}") from error
 

@@ -8,10 +8,12 @@ import os
 import numpy as np
 from matplotlib.collections import LineCollection
 from taut_plot_files import numbers, read_collection, read_links, read_vtu
-from taut_plot_solids import read_arrays
+from taut_plot_solids import outline, read_arrays
 from taut_plot_style import BLACK, COLOURS, GREY, ORANGE, Page, legend_above, legend_below, panels
 
 NAMED = 6  # curves with names in a legend
+LEAST_SLOPE = 0.15  # height over width of what is drawn to scale
+LEAST_HEIGHT = 1e-3  # of a sketch, over its width: what is flatter is drawn flat
 LINE = 3  # number of VTK
 
 
@@ -54,20 +56,31 @@ def lines_of(arrays):
     return now[arrays["connectivity"].reshape(-1, 2)]
 
 
+def body_lines(arrays):
+    """Those of a cable or rigid body, or the outline of a solid in the plane, where they are; None for a solid in space."""
+    lines = lines_of(arrays)
+    return outline(arrays) if lines is None else lines
+
+
 def line_bodies(results):
     """{name: [(time, file)]} of the fields of bodies; cables and rigid bodies among them consist of lines."""
     files = sorted(glob.glob(os.path.join(results.folder, "body_*.pvd")))
-    return {os.path.basename(file)[5:-4]: read_collection(file) for file in files}
+    return {results.name_of(os.path.basename(file)[5:-4]): read_collection(file) for file in files}
 
 
 def guys(results, low, extent):
-    """Links that pull from the ground in a direction and have no second end in the fields: [2, 3] a guy, down to the lowest
-    point of the scene, or a tenth of its extent long."""
+    """Links from the ground, which have no second end in the fields: [2, 3] each. Droppers reach along their direction down to
+    the lowest point of the scene, or a tenth of its extent; others are where they act."""
     found = []
     for name, at in results.points().items():
-        section = f"Network/Link {name}"
+        # A link at several places is several links with numbers.
+        section = next((s for s in (f"Network/Link {name}", f"Network/Link {name.rpartition(' ')[0]}")
+                        if f"{s}/Direction" in results.entries), "")
         direction = numbers(results.entries.get(f"{section}/Direction", ""))
         if "ground" not in (results.entries.get(f"{section}/{end}", "") for end in ("From", "To")) or not any(direction):
+            continue
+        if results.entries.get(f"{section}/Type") != "dropper":
+            found.append(np.array([at, at]))
             continue
         way = np.array((direction + [0.0])[:3]) / np.linalg.norm(direction)
         if results.entries.get(f"{section}/To", "") == "ground":
@@ -77,18 +90,26 @@ def guys(results, low, extent):
     return found
 
 
+def sliding_contacts(results):
+    """Their names, of a run at rest too."""
+    return {*results.sliding(), *(entry.split("/")[1].removeprefix("Link ") for entry, value in results.entries.items()
+                                  if value == "sliding contact")}
+
+
 def sketch(results, _):
-    """What the scene looks like at the start, from the side: wires, cables, links and guys."""
+    """What the scene looks like at the start, from the side: wires, cables, solids, links and guys."""
     segments, names = scene_lines(results)
     if not segments:
-        return None, "no fields of wires or cables (Output/Field interval = 0)"
+        return None, "no wires, cables or solids in the plane with fields (Output/Field interval)"
     points = np.concatenate([line.reshape(-1, 3) for line in segments])
-    links = read_links(read_collection(results.path("links.pvd"))[0][1]) if results.has("links.pvd") else []
+    links = read_links(read_collection(results.path("links.pvd"))[0][1], sliding_contacts(results)) \
+        if results.has("links.pvd") else []
     links += guys(results, points[:, 1].min(), np.ptp(points, axis=0).max())
     every = np.concatenate([points, *(link.reshape(-1, 3) for link in links)]) if links else points
     width, height = np.ptp(every[:, 0]), np.ptp(every[:, 1])
-    true = 0.15 < height / max(width, 1e-12) < 4
-    inches = min(1.25 * Page.width, max(1.4, Page.width * height / max(width, 1e-12))) if true else 2.4
+    slope = height / max(width, 1e-12 * height)
+    true = slope > LEAST_SLOPE
+    inches = 3.4 if slope > 4 else min(1.25 * Page.width, max(1.4, Page.width * slope)) if true else 2.4
     figure, grid = panels(1, inches)
     panel = grid[0, 0]
     for i, (line, name) in enumerate(zip(segments, names)):
@@ -101,6 +122,9 @@ def sketch(results, _):
     if still:
         panel.plot(*np.transpose(still), "o", color=ORANGE, markersize=3, label="stops and joints")
     panel.autoscale_view()
+    if slope < LEAST_HEIGHT:
+        middle = (every[:, 1].min() + every[:, 1].max()) / 2
+        panel.set_ylim(middle - LEAST_HEIGHT * width / 2, middle + LEAST_HEIGHT * width / 2)
     panel.set_xlabel("x [m]" + (f"; grey: {len(segments) - NAMED} more" if len(segments) > NAMED else ""))
     panel.set_ylabel("y [m]" + ("" if true else ", at another scale"))
     if true:
@@ -110,7 +134,8 @@ def sketch(results, _):
 
 
 def scene_lines(results):
-    """The segments [n, 2, 3] of each wire and body of lines at the first field, long ones first, and their names."""
+    """The segments [n, 2, 3] of each wire, body of lines and outline of a solid in the plane at the first field, long ones
+    first, and their names."""
     found = []
     frames = read_collection(results.path("wires.pvd")) if results.has("wires.pvd") else []
     if frames:
@@ -118,7 +143,7 @@ def scene_lines(results):
         now = points + displacement
         found += [(np.stack([now[line[:-1]], now[line[1:]]], axis=1), names[w]) for w, line in wires.items()]
     for name, collection in line_bodies(results).items():
-        line = lines_of(read_arrays(collection[0][1])) if collection else None
+        line = body_lines(read_arrays(collection[0][1])) if collection else None
         if line is not None:
             found.append((line, name))
     found.sort(key=lambda item: -np.ptp(item[0].reshape(-1, 3), axis=0).max())

@@ -75,7 +75,8 @@ def uplift(results, options):
         mine = [i for i, (name, *_) in enumerate(items) if not by_place or re.sub(r" at \S+ m$", "", name) == group]
         panel.bar(at[mine], [items[i][1] for i in mine], color=colour, width=0.6, label=group or "largest displacement")
     for i, (_, value, limits, _) in enumerate(items):
-        panel.annotate(f"{value:.1f}", (i, value), ha="center", va="bottom", fontsize="x-small")
+        panel.annotate(f"{value:#.3g}".rstrip("."), (i, value), xytext=(0, 1.5), textcoords="offset points", ha="center", va="bottom",
+                       fontsize="x-small", zorder=4, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6})
         for limit in limits:
             panel.plot([i - 0.42, i + 0.42], [limit, limit], color=RED, linewidth=1.2,
                        label="limits" if (i, limit) == (0, limits[0]) else None)
@@ -142,16 +143,17 @@ def motion_of(name, times, points, motion):
     is_x = abs(way[0]) > 0.999
     s = points[:, 0] if is_x else (points - points[0]) @ way
     height = motion[0][:, 1]
-    what = "displacement"
+    since = ""
     if np.abs(motion[0]).max() > 2 * np.abs(motion - motion[0]).max():
-        what, motion = "displacement since the start", motion - motion[0]  # small beside the static shape
+        since, motion = ", since the start", motion - motion[0]  # small beside the static shape
     in_plane = np.hypot(way[0], way[1])
     normal = np.array([-way[1], way[0], 0]) / in_plane if in_plane > 1e-12 else np.array([0.0, 1.0, 0.0])
-    motions = {"across": motion @ normal, "along": motion @ way, "sideways": motion @ np.cross(way, normal)}
+    motions = {"across the wire": motion @ normal, "along the wire": motion @ way,
+               "sideways": motion @ np.cross(way, normal)}
     direction, u = max(motions.items(), key=lambda item: np.ptp(item[1]))
     order = np.argsort(s, kind="stable")
     thin = order[::-(-len(s) // 1200)]
-    return Motion(name, times, s[thin], height[thin], u[:, thin], f"{what} {direction}", is_x)
+    return Motion(name, times, s[thin], height[thin], u[:, thin], f"displacement {direction}{since}", is_x)
 
 
 def displacement_map(results, options):

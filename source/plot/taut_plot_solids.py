@@ -10,9 +10,10 @@ import zlib
 
 import numpy as np
 from taut_plot_files import UserError, read_collection
-from taut_plot_style import BLUE, panels
+from taut_plot_style import BLUE, Page, panels
 
 HEIGHT = 2.4  # of a panel, inches
+LEAST_HEIGHT = 1.0  # of a flat solid, inches
 TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
 QUADRILATERAL, TRIANGLE = 9, 5  # numbers of VTK
 
@@ -50,36 +51,63 @@ def read_arrays(path):
         raise UserError(f"cannot read '{path}': {error}") from error
 
 
-def last_fields(results, kind):
-    """[(name, time, arrays)] of the last field of each contact or body."""
+def last_fields(results, kind, wanted=None):
+    """[(name, time, arrays)] of the last field of each contact or body, or of the last one with something of this array."""
     found = []
     for path in sorted(glob.glob(os.path.join(results.folder, f"{kind}_*.pvd"))):
-        collection = read_collection(path)
-        if collection:
-            time, file = collection[-1]
-            found.append((os.path.basename(path)[len(kind) + 1:-4], time, read_arrays(file)))
+        name = results.name_of(os.path.basename(path)[len(kind) + 1:-4])
+        fields = ((name, time, read_arrays(file)) for time, file in reversed(read_collection(path)))
+        field = next((f for f in fields if wanted is None or (wanted in f[2] and f[2][wanted].any())), None)
+        if field:
+            found.append(field)
     return found
 
 
 def contact_pressure(results, _):
-    """The pressure along each contact, over the axis that it is longest along."""
-    contacts = [c for c in last_fields(results, "contact") if "pressure" in c[2]]
+    """The pressure of each contact at the last field that has some: along the axis that it is longest along, or, of a surface
+    in space, over two axes."""
+    contacts = last_fields(results, "contact", "pressure")
     if not contacts:
-        return None, None
+        has_contacts = bool(results.entries.get("Contacts"))
+        return None, "the contacts are open in all fields (Output/Field interval)" if has_contacts else None
     figure, grid = panels(len(contacts), HEIGHT)
     for panel, (name, time, arrays) in zip(grid[:, 0], contacts):
         x = arrays["positions"].astype(float)
-        along = int(np.argmax(np.ptp(x, axis=0)))
-        order = np.argsort(x[:, along])
-        scale, unit = (1e-6, "MPa") if arrays["pressure"].max() >= 1e5 else (1.0, "Pa")
-        # Many points of a surface have the same x: no line joins them.
-        style = ".-" if len(np.unique(x[:, along])) > 0.9 * len(x) else "."
-        panel.plot(x[order, along], scale * arrays["pressure"][order], style, markersize=3, color=BLUE)
+        along, beside, _ = np.argsort(-np.ptp(x, axis=0), kind="stable")
+        slave = results.entries.get(f"Contact {name}/Slave", "").partition(":")[0].strip()
+        is_cable = results.entries.get(f"Body {slave}/Type") == "cable"
+        what, unit = ("force per length", "N/m") if is_cable else ("pressure", "Pa")
+        scale, unit = (1e-6, "MPa") if unit == "Pa" and arrays["pressure"].max() >= 1e5 else (1.0, unit)
         panel.set_xlabel(f"{'xyz'[along]} [m]")
-        panel.set_ylabel(f"pressure [{unit}]")
         panel.set_title(f"{name}, t = {time:g} s", loc="left")
-        panel.set_ylim(bottom=0)
+        # Many points of a surface have the same x.
+        if len(np.unique(np.round(x[:, along], 9))) > 0.9 * len(x):
+            order = np.argsort(x[:, along])
+            panel.plot(x[order, along], scale * arrays["pressure"][order], ".-", markersize=3, color=BLUE)
+            panel.set_ylabel(f"{what} [{unit}]")
+            panel.set_ylim(bottom=0)
+        else:
+            points = panel.scatter(x[:, along], x[:, beside], 12, scale * arrays["pressure"], cmap="viridis")
+            figure.colorbar(points, ax=panel, label=f"{what} [{unit}]")
+            panel.set_ylabel(f"{'xyz'[beside]} [m]")
+            panel.set_aspect("equal")
     return figure, None
+
+
+def outline(arrays):
+    """The edges of a solid in the plane that only one of its cells has, [n, 2, 3], where they are; None for other bodies."""
+    x, kinds = arrays["positions"].astype(float), arrays["types"]
+    displacement = arrays.get("displacement", np.zeros_like(x))
+    if np.ptp(x[:, 2]) or displacement.shape != x.shape or not np.isin(kinds, (QUADRILATERAL, TRIANGLE)).all():
+        return None
+    begins = np.concatenate(([0], arrays["offsets"][:-1]))
+    edges = np.concatenate([np.stack([arrays["connectivity"][begins[kinds == kind] + i],
+                                      arrays["connectivity"][begins[kinds == kind] + (i + 1) % n]], axis=1)
+                            for kind, n in ((QUADRILATERAL, 4), (TRIANGLE, 3)) for i in range(n)])
+    # Each cell has points of its own: those at one place are one.
+    _, place = np.unique(np.round(x / max(np.ptp(x, axis=0).max(), 1e-300), 7), axis=0, return_inverse=True)
+    _, first, count = np.unique(np.sort(place.reshape(-1)[edges], axis=1), axis=0, return_index=True, return_counts=True)
+    return (x + displacement)[edges[first[count == 1]]]
 
 
 def triangles(arrays):
@@ -97,7 +125,9 @@ def stress(results, _):
               for name_of in arrays if "mises" in name_of.lower() and not np.ptp(arrays["positions"][:, 2])]
     if not bodies:
         return None, None
-    figure, grid = panels(len(bodies), 2 * HEIGHT)
+    slopes = [np.ptp(arrays["positions"][:, 1]) / np.ptp(arrays["positions"][:, 0]) for _, _, arrays, _ in bodies]
+    heights = [min(2 * HEIGHT, max(LEAST_HEIGHT, 0.75 * Page.width * slope)) for slope in slopes]
+    figure, grid = panels(len(bodies), np.mean(heights), height_ratios=heights)
     for panel, (name, time, arrays, name_of) in zip(grid[:, 0], bodies):
         x, values = arrays["positions"], arrays[name_of]
         scale, unit = (1e-6, "MPa") if values.max() >= 1e5 else (1.0, "Pa")

@@ -101,7 +101,7 @@ def fit_texts(figure):
 def scale_of(values, unit):
     """The factor and the unit in which the largest of the values is written best."""
     largest = max((float(np.abs(v).max()) for v in values if np.size(v)), default=0.0)
-    if unit.startswith("N"):
+    if unit.startswith("N") and largest >= 1:
         return (1e-3, "k" + unit) if largest >= 2e4 else (1.0, unit)
     if largest >= 1 or largest < 1e-12:  # below: rounding
         return 1.0, unit

@@ -5,15 +5,18 @@ distributions with their percentiles."""
 import csv
 import os
 import re
+import textwrap
 
 import numpy as np
 from taut_plot_files import UserError, read_entries, read_units
-from taut_plot_style import BLUE, MOST_PANELS, ORANGE, Page
+from taut_plot_style import BLUE, MOST_PANELS, ORANGE, Page, scale_of
 from taut_plot_style import panels as rows_of_panels
 
 MOST_TICKS = 8  # with the values of all zipped entries
 LEAST_CHANGE = 1e-3  # of a quantity that is drawn unasked, over its largest value
 PERCENTILES = (5, 50, 95)
+MOST_BARS = 24  # cases
+MOST_LETTERS = 44  # of a value beside a bar
 # What is drawn if nobody asks for more, in this order: of sliding contacts, of probes, of links.
 FIRST = ("mean", "standard deviation", "maximum", "contact loss", "largest", "largest force")
 
@@ -52,6 +55,13 @@ class Sweep:
     def text(self, name):
         return [row[self.columns.index(name)] for row in self.rows]
 
+    def scaled(self, quantity):
+        """Its numbers in the unit that they are written best in, and its name with this unit."""
+        name, _, unit = quantity[:-1].rpartition(" [")
+        values = self.values(quantity)
+        factor, unit = scale_of([values], unit) if unit in ("m", "N", "N m", "rad") else (1.0, unit)
+        return factor * values, f"{name} [{unit}]"
+
     def values(self, name):
         """Numbers of a column; None if there are others."""
         try:
@@ -89,7 +99,7 @@ def curves(sweep, quantities, parameter):
     keys = list(zip(*(sweep.text(name) for name in others))) if others else [()] * len(x)
     figure, grid = panels(len(quantities), 2.4 if zipped else 2.1)
     for panel, quantity in zip(grid, quantities):
-        y = sweep.values(quantity)
+        y, label = sweep.scaled(quantity)
         for key in dict.fromkeys(keys):
             mine = np.array([i for i, k in enumerate(keys) if k == key])
             mine = mine[np.argsort(x[mine], kind="stable")]
@@ -98,7 +108,7 @@ def curves(sweep, quantities, parameter):
         panel.set_xlabel(sweep.label(parameter))
         if zipped:
             zipped_axis(panel, sweep, parameter, zipped)
-        panel.set_ylabel(quantity.replace(": ", ":\n"))
+        panel.set_ylabel(label.replace(": ", ":\n"))
     if others and len(set(keys)) <= 8:
         grid[0].legend()
     return figure
@@ -123,9 +133,10 @@ def maps(sweep, quantities, first, second):
     figure, grid = panels(len(quantities), 2.4)
     for panel, quantity in zip(grid, quantities):
         field = np.full((len(ys), len(xs)), np.nan)
-        field[np.searchsorted(ys, y), np.searchsorted(xs, x)] = sweep.values(quantity)
+        values, label = sweep.scaled(quantity)
+        field[np.searchsorted(ys, y), np.searchsorted(xs, x)] = values
         image = panel.pcolormesh(xs, ys, field, shading="nearest", cmap="viridis")
-        figure.colorbar(image, ax=panel, label=quantity.replace(": ", ":\n"))
+        figure.colorbar(image, ax=panel, label=label.replace(": ", ":\n"))
         panel.set_xlabel(sweep.label(first))
         panel.set_ylabel(sweep.label(second))
     return figure
@@ -135,7 +146,8 @@ def distributions(sweep, quantities):
     """The part of the cases below each value."""
     figure, grid = panels(len(quantities))
     for panel, quantity in zip(grid, quantities):
-        values = np.sort(sweep.values(quantity))
+        values, label = sweep.scaled(quantity)
+        values = np.sort(values)
         panel.step(values, 100 * np.arange(1, len(values) + 1) / len(values), where="post", color=BLUE)
         for percentile in PERCENTILES:
             at = np.percentile(values, percentile)
@@ -143,8 +155,25 @@ def distributions(sweep, quantities):
             panel.annotate(f"{percentile} %: {at:.4g}", (at, percentile), xytext=(-4 if percentile > 50 else 4, -2),
                            ha="right" if percentile > 50 else "left", textcoords="offset points", fontsize=7)
         panel.set_ylim(0, 103)
-        panel.set_xlabel(quantity)
+        panel.set_xlabel(label)
         panel.set_ylabel("cases below [%]")
+    return figure
+
+
+def bars(sweep, quantities):
+    """A bar for each case, where no entry has numbers that differ: formulas, names, files."""
+    texts = [name for name in sweep.parameters if len(set(sweep.text(name))) > 1]
+    cases = list(zip(*(sweep.text(name) for name in texts))) if texts else [(row[0],) for row in sweep.rows]
+    names = ["\n".join(textwrap.shorten(text, MOST_LETTERS, placeholder=" ...") for text in case) for case in cases]
+    longest = max(len(line) for name in names for line in name.split("\n"))
+    figure, grid = rows_of_panels(len(quantities), 0.4 + 0.18 * len(cases) * max(1, len(texts)))
+    for panel, quantity in zip(grid[:, 0], quantities):
+        values, label = sweep.scaled(quantity)
+        panel.barh(np.arange(len(cases)), values, color=BLUE, height=0.6)
+        panel.set_yticks(np.arange(len(cases)), names, fontsize=7 if longest > 20 else None)
+        panel.set_ylim(len(cases) - 0.5, -0.5)
+        panel.set_xlabel(label)
+        panel.set_ylabel(", ".join(map(sweep.label, texts)) if texts else "case")
     return figure
 
 
@@ -154,7 +183,9 @@ def sweep_picture(folder, options):
     quantities = sweep.chosen(options.quantity)
     varied = [name for name in sweep.parameters if sweep.values(name) is not None and len(set(sweep.text(name))) > 1]
     pairs = {tuple(pair) for pair in zip(*(sweep.text(name) for name in varied))}
-    if sweep.is_random or not varied:
+    if not varied and not sweep.is_random and len(sweep.rows) <= MOST_BARS:
+        figure = bars(sweep, quantities)
+    elif sweep.is_random or not varied:
         figure = distributions(sweep, quantities)
     elif len(varied) == 2 and len(sweep.parameters) == 2 and not sweep.is_zipped and \
             min(len(set(sweep.text(name))) for name in varied) > 2 and len(pairs) > 8:

@@ -1,116 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What taut-plot draws, number by number: pictures of hand-made results, whose lines, bars and titles are known, and of short
-runs, whose fields say the same. A picture that draws nothing has none of these numbers."""
-import pathlib
+"""What taut-plot draws, number by number: pictures of hand-made results, whose lines, bars and titles are known. A picture that
+draws nothing has none of these numbers."""
+from drawing import (FORCE, SCRIPT, TIME, PARAMETERS, arguments, close, contact_table, draw, expect, finish_after, folder, named,
+                     not_drawn, options, plot, program, set_style)
 import shutil
 import subprocess
 import sys
-from types import SimpleNamespace
 
-try:
-    import matplotlib
-    import numpy as np
-    from PIL import Image
-except ImportError as missing:
-    print(f"skipped: {missing}; install python3-matplotlib")
-    sys.exit(77)
-
-sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from checks import entries, errors, expect, finish, load_plot, parse
-
-arguments = parse(__doc__, "program", "root", "results")
-SCRIPT = arguments.root / "source" / "plot" / "taut-plot"
-plot = load_plot(SCRIPT)
+import matplotlib
+import numpy as np
+from PIL import Image
 from taut_plot_compare import PICTURES as COMPARED, labels_of
-from taut_plot_files import read_collection
-from taut_plot_film import magnification
+from taut_plot_elasticity import elasticity
 from taut_plot_strips import power_spectrum, read_strips
-from taut_plot_style import LOSS, fit_texts, set_style
-
-set_style()
-LINE = matplotlib.lines.Line2D
-PARAMETERS = """set Generator = catenary
-subsection Time
-  set End = 2
-end
-subsection Statistics
-  set Filter frequency = 0
-end
-subsection Catenary
-  set Number of spans = 2
-  set Span length = 50
-end
-"""
-
-
-def close(what, found, wanted, tolerance=1e-9):
-    found, wanted = np.asarray(found, float), np.asarray(wanted, float)
-    expect(what, found.shape == wanted.shape and np.allclose(found, wanted, rtol=tolerance, atol=tolerance), f"{found} not {wanted}")
-
-
-def write_table(path, columns):
-    np.savetxt(path, np.transpose(list(columns.values())), delimiter=",", header=",".join(columns), comments="", fmt="%.17g")
-
-
-def folder(name, parameters=PARAMETERS, start=(), **tables):
-    """A results folder with these tables; `start`: (link, x, force)."""
-    path = arguments.results / name
-    shutil.rmtree(path, ignore_errors=True)
-    path.mkdir(parents=True)
-    (path / "used.prm").write_text(parameters)
-    (path / "start.csv").write_text("link,x [m],y [m],z [m],force [N or N m],gap [m or rad],length [m],stretched length [m]\n" +
-                                    "".join(f"{link},{x},0,0,{force},0,0,0\n" for link, x, force in start))
-    for table, columns in tables.items():
-        write_table(path / f"{table}.csv", columns)
-    return path
-
-
-def options(**given):
-    return SimpleNamespace(**{**dict(window=None, bands=None, wire=None, plots=None, quantity=None), **given})
-
-
-def draw(name, path, **given):
-    """The figure of one picture, its texts made to fit; an error if there is none."""
-    known = {**plot.PICTURES, **plot.STATIC}
-    figure, reason = known[name](plot.Results(str(path)), options(**given))
-    if expect(f"{name} of {path.name} is drawn", figure is not None, reason):
-        fit_texts(figure)
-    return figure
-
-
-def not_drawn(name, path, text):
-    figure, reason = plot.PICTURES[name](plot.Results(str(path)), options())
-    expect(f"{name} of {path.name} is left out", figure is None and text in (reason or ""), reason)
-
-
-def run(name, *settings):
-    path = arguments.results / name
-    shutil.rmtree(path, ignore_errors=True)
-    subprocess.run([arguments.program, arguments.root / "prm" / f"{name}.prm", *entries(f"Output/Folder={path}", *settings)],
-                   check=True, stdout=subprocess.DEVNULL)
-    return path
-
-
-def program(*words):
-    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], capture_output=True, text=True)
-
-
-def named(panel, label):
-    return [line for line in panel.get_lines() if line.get_label() == label]
-
-
-TIME = np.linspace(0, 2, 2001)
-# Five whole periods of 2.5 Hz and twenty-four of 12 Hz; 50 m/s from x = 0 to 100 m.
-FORCE = 100 + 10 * np.sin(2 * np.pi * 2.5 * TIME) + 6 * np.sin(2 * np.pi * 12 * TIME)
-
-
-def contact_table(**forces):
-    table = {"time [s]": TIME}
-    for name, force in forces.items():
-        name = name.replace("_", " ")
-        table.update({f"{name} position [m]": 50 * TIME, f"{name} force [N]": force, f"{name} gap [m]": -force / 1e5})
-    return table
+from taut_plot_style import scale_of
 
 
 def check_contacts():
@@ -129,6 +33,9 @@ def check_contacts():
     close("parts of the histogram", sum(bar.get_height() for bar in panel.patches), 100)
     close("mean and three deviations", sorted(line.get_xdata()[0] for line in panel.get_lines()),
           FORCE.mean() + np.array([-3, 0, 3]) * FORCE.std())
+
+    expect("extremes of the histogram", f"smallest {FORCE.min():.1f} N, largest {FORCE.max():.1f} N" in panel.get_title("left"),
+           panel.get_title("left"))
 
     panel, = draw("force_by_span", path).axes
     parts = [FORCE[TIME <= 1], FORCE[TIME >= 1]]
@@ -221,6 +128,35 @@ def check_sweep():
     expect("its units", panel.get_xlabel() == "mass [kg] / k [N/m]", panel.get_xlabel())
 
 
+    (path / "sweep.csv").write_text("case,pace,tip: largest [m],message\n1,sin(2*t),0.002,\n2,sin(3*t),0.004,\n")
+    (path / "sweep.prm").write_text("subsection Sweep\n  subsection Parameter pace\n    set Entries = A/Magnitude\n  end\nend\n")
+    panel, = plot.sweep_picture(str(path), options())[0].axes
+    close("a bar for each formula, in mm", [bar.get_width() for bar in panel.patches], [2, 4])
+    expect("names of the bars", [text.get_text() for text in panel.get_yticklabels()] == ["sin(2*t)", "sin(3*t)"] and
+           panel.get_xlabel() == "tip: largest [mm]", panel.get_xlabel())
+
+
+def check_elasticity():
+    path = arguments.results / "elasticity"
+    shutil.rmtree(path, ignore_errors=True)
+    path.mkdir(parents=True)
+    (path / "elasticity.csv").write_text("wire,x [m],elasticity [mm/N]\none,10,0.4\none,11,0.6\none,12,0.5\ntwo,10,0.1\ntwo,12,0.1\n")
+    (path / "elasticity.json").write_text('{"force [N]": 50, "slackening": false, "wires": []}')
+    first, second = elasticity(str(path))[0].axes
+    close("elasticity over x", first.get_lines()[0].get_xydata(), [[10, 0.4], [11, 0.6], [12, 0.5]])
+    expect("non-uniformity", first.get_title("left").endswith("at 10 m, u 20 %") and "u 0 %" in second.get_title("left"),
+           first.get_title("left"))
+    expect("force of the elasticity", "50 N, droppers stay closed" in second.get_xlabel(), second.get_xlabel())
+    done = program(path, "--format", "png")
+    expect("a folder of elasticity", done.returncode == 0 and (path / "figures" / "elasticity.png").exists(), done.stderr)
+
+
+def check_units():
+    found = [scale_of([np.array([value])], unit) for value, unit in
+             ((3e4, "N"), (50, "N"), (2e-4, "N"), (1e-5, "N m"), (2e-3, "m"), (3, "m"))]
+    expect("units", found == [(1e-3, "kN"), (1.0, "N"), (1e3, "mN"), (1e6, "µN m"), (1e3, "mm"), (1.0, "m")], found)
+
+
 def check_study():
     path = arguments.results / "study"
     shutil.rmtree(path, ignore_errors=True)
@@ -249,6 +185,9 @@ def check_several():
     figure, _ = COMPARED["force_statistics"](runs, labels, options())
     close("statistics of two runs", [bar.get_height() for bar in figure.axes[0].patches],
           [factor * of(FORCE) for factor in (1, 2) for of in (np.mean, np.std, np.max, np.min)])
+    other = folder("other", sliding=contact_table(pan_2=FORCE))
+    first, second = COMPARED["force_statistics"]([runs[0], plot.Results(str(other))], ["a", "b"], options())[0].axes
+    expect("all strips have one axis of the statistics", first.get_xlim() == second.get_xlim() == (-0.5, 3.5), second.get_xlim())
     figure, _ = COMPARED["force_spectrum"](runs, labels, options())
     first, second = (line.get_ydata() for line in figure.axes[0].get_lines() if len(line.get_ydata()) > 2)
     close("spectra of two runs", second / first, np.full(len(first), 4), 1e-6)
@@ -282,75 +221,5 @@ def check_pipe():
     expect("pictures into a closed pipe", (path / "figures" / "force_histogram.png").exists())
 
 
-def check_line():
-    """Each contact is drawn on its own wire, its loss in the one colour of all pictures, and the envelope is that of the fields."""
-    path = run("real_line", "Time/End=0.06", "Output/Field interval=0.02", "Output/Link interval=0.02")
-    figure = draw("displacement_map", path)
-    for panel, wire in zip(figure.axes, ("contact 1", "contact 2")):
-        ways = {line.get_label(): line for line in panel.get_lines() if line.get_label().endswith(wire)}
-        expect(f"contacts on {wire}", set(ways) == {f"leading on {wire}", f"trailing on {wire}"}, list(ways))
-        for strip, x in (("leading", 569), ("trailing", 496)):
-            close(f"{strip} on {wire}", ways[f"{strip} on {wire}"].get_xdata()[[0, -1]], [x, x + 160 / 3.6 * 0.06], 1e-6)
-        others = [line for line in panel.get_lines() if "on contact" in line.get_label() and not line.get_label().endswith(wire)]
-        expect(f"no contacts of another wire on {wire}", not others, others)
-    figure = draw("envelope", path)
-    frames = [plot.read_vtu(file) for _, file in read_collection(str(path / "wires.pvd"))]
-    number = next(w for w, name in frames[0][3].items() if name == "contact 1")
-    motion = np.array([u[wires[number], 1] for _, u, wires, _ in frames])
-    highest, = named(figure.axes[1], "highest")
-    close("envelope", highest.get_ydata(), 1e3 * (motion - motion[0]).max(axis=0)[::2], 1e-4)
-    close("profile", figure.axes[0].get_lines()[0].get_ydata(), 1e3 * motion[0][::2], 1e-4)
-
-    force = np.where(TIME < 1, 100.0, 0.0)
-    panel = draw("contact_force", folder("loss", sliding=contact_table(pan=force))).axes[0]
-    colour = next(patch.get_facecolor() for patch in panel.patches if patch.get_label() == "loss of contact")
-    expect("one colour of the loss", matplotlib.colors.to_hex(colour) == LOSS.lower(), colour)
-
-
-def check_shapes():
-    path = run("guyed_mast", "Time/End=0")
-    figure = draw("sketch", path)
-    guys = sorted(tuple(np.ravel(line)) for lines in figure.axes[0].collections if lines.get_label() == "links and guys"
-                  for line in lines.get_segments())
-    close("guys of the sketch", guys, [[-6, 0, 0, 8], [6, 0, 0, 8]], 0.01)
-    expect("height of the sketch", figure.get_figheight() < 1.5 * figure.get_figwidth(), figure.get_figheight())
-
-    path = run("hanging_cable")
-    results = plot.Results(str(path))
-    expect("a static scene is complete", results.is_static and not results.is_partial)
-    done = program(path, "--format", "png")
-    expect("pictures of a static scene", done.returncode == 0 and "not complete" not in done.stdout, done.stdout + done.stderr)
-    panel = draw("cable_shape", path).axes[0]
-    lines = max(panel.collections, key=lambda lines: lines.get_array() is not None)
-    (_, _, arrays), = plot.last_fields(results, "body")
-    close("tension of the cable", lines.get_array(), arrays["tension"][arrays["connectivity"].reshape(-1, 2)].mean(axis=1))
-    close("its shape", np.array(lines.get_segments()).reshape(-1, 2), arrays["positions"][arrays["connectivity"]][:, :2])
-    film = program(path, "--film", "gif", "--plots", "sketch", "--format", "png")
-    expect("no film of one field", "no film: fields of wires or cables at two times" in film.stdout, film.stdout + film.stderr)
-
-
-def check_film():
-    path = run("string_on_stop")
-    done = program(path, "--film", "gif", "--plots", "probes", "--format", "png")
-    expect("a film", done.returncode == 0, done.stderr)
-    n_fields = len(read_collection(str(path / "wires.pvd")))
-    with Image.open(path / "figures" / "film.gif") as film:
-        frames = []
-        for i in range(film.n_frames):
-            film.seek(i)
-            frames.append(np.asarray(film.convert("L"))[film.height // 6:])  # without the title
-    expect("frames of the film", len(frames) == n_fields and all((a != b).any() for a, b in zip(frames, frames[1:])), len(frames))
-    expect("motions that are seen are not magnified", magnification({"a": np.array([[[[0, 0, 0]], [[1, 1, 0]]], [[[0, 0, 0]], [[1, 2, 0]]]])}) == 1)
-    small = np.array([[[[0, 0, 0], [1, 1, 0]]], [[[0, 0, 0], [1, 1.002, 0]]]])
-    expect("small motions are magnified", magnification({"a": small}) == 50, magnification({"a": small}))
-    if not matplotlib.animation.writers.is_available("ffmpeg"):
-        done = program(path, "--film", "mp4")
-        expect("no ffmpeg", done.returncode == 1 and done.stderr == "taut-plot: --film mp4: the program ffmpeg is missing; "
-               "install it or take --film gif\n", done.stderr)
-
-
-for check in (check_contacts, check_strips, check_probes, check_links, check_sweep, check_study, check_several, check_sizes, check_pipe, check_line,
-              check_shapes, check_film):
-    check()
-    matplotlib.pyplot.close("all")
-finish()
+finish_after(check_contacts, check_strips, check_probes, check_links, check_sweep, check_elasticity, check_units, check_study,
+             check_several, check_sizes, check_pipe)
