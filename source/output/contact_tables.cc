@@ -96,11 +96,14 @@ namespace taut
       return;
     for (Contact &contact : contacts)
     {
+      const bool is_line = contact.geometry.slave.dim == 1;
       contact.table = std::make_unique<TableFile>(
           folder + contact.stem + ".csv",
-          std::vector<std::string>{"time [s]", "force x [N]", "force y [N]", "force z [N]",
-                                   "point x [m]", "point y [m]", "point z [m]", "area [m^2]",
-                                   "largest pressure [Pa]", "least gap [m]", "closed [1]"},
+          std::vector<std::string>{
+              "time [s]", "force x [N]", "force y [N]", "force z [N]", "point x [m]", "point y [m]",
+              "point z [m]", is_line ? "length [m]" : "area [m^2]",
+              is_line ? "largest force per length [N/m]" : "largest pressure [Pa]", "least gap [m]",
+              "closed [1]"},
           run.resumes);
       if (!(field_interval > 0.))
         continue;

@@ -208,19 +208,20 @@ TEST(CablePlaces, places_in_space_are_shown)
 // mast of 40 m with two guys: one to a place 30 m away, one along its direction, 45 degrees.
 TEST(CablePlaces, a_sketch_of_a_guyed_mast_fits_on_a_page)
 {
-  Session session("Generator = network; Gravity = 0, 0; Start = undeformed\n"
-                  "Body mast: Type = cable; From = 0, 0, 0; To = 0, 40, 0; Unstressed length = "
-                  "39.99; Axial stiffness = 1e6; Mass per length = 1\n"
-                  "Link left: Type = dropper; From = ground @ -30, 0; To = mast @ 30, 0\n"
-                  "Link right: Type = joint; From = ground; To = mast @ 20, 0; Direction = 1, -1; "
-                  "Stiffness = 10\nTime: End = 0; Step = 0.01\n");
+  Session session(
+      "Generator = network; Gravity = 0, 0; Start = undeformed\n"
+      "Body mast: Type = cable; From = 0, 0, 0; To = 0, 40, 0; Unstressed length = "
+      "39.99; Axial stiffness = 1e6; Mass per length = 1\n"
+      "Link left: Type = dropper; Turns = true; From = ground @ -30, 0; To = mast @ 30, 0\n"
+      "Link right: Type = joint; From = ground; To = mast @ 20, 0; Direction = 1, -1; "
+      "Stiffness = 10\nTime: End = 0; Step = 0.01\n");
   const ScenePlaces places =
       places_in_space(session.simulation().scene(), session.simulation().structure());
   write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
   const std::string drawing = file_text(session.folder() + ".svg");
   std::remove((session.folder() + ".svg").c_str());
   // 50 x 40 m on 700 pixels of height: 17.5 pixels a metre, margins of 40.
-  expect(drawing, {"height=\"780\"", "heights x 1<", "M40 740 l-5 8 h10 z", "M915 740 l-5 8"});
+  expect(drawing, {"height=\"780\"", "heights x 1<", "M40 740 l-5 8 h10 z", "M915.0"});
 }
 
 TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
@@ -230,6 +231,9 @@ TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
   Session session(scene, {"Body span/To=10, 0, 0", "Body span/Unstressed length=10.2",
                           "Body span/Axial stiffness=1e5", "Output/Field interval=1"});
   session.run();
+  // A line has a force per length on a part of its length.
+  const std::string table = file_text(session.folder() + "/contact_floor.csv");
+  expect(table.substr(0, table.find('\n')), {",length [m],largest force per length [N/m],"});
   const std::string file = session.folder() + "/contact_floor_00000.vtu";
   const std::vector<float> places = array_in(file, "positions"),
                            displacement = array_in(file, "displacement"),

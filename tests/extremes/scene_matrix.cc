@@ -289,6 +289,7 @@ namespace extremes
       taut::Link l = link("contact", taut::LinkKind::sliding_contact, on_mass(0),
                           on_wire(.1 * length), level["compliance"], level["gap"]);
       l.speed = v;
+      l.faster_than_waves = true;
       c.scene.links = {l};
       c.scene.start = static_cast<taut::Start>(static_cast<int>(level["start"]));
     }

@@ -16,10 +16,10 @@ namespace taut
   /**
    * Writes the contacts of surfaces. `contact_<name>.csv` has a line each Output/Interval: the
    * resultant force on the slave and its place (displaced on cables, otherwise undeformed), contact
-   * area, largest pressure and least gap. `contact_<name>_NNNNN.vtu`, joined by
-   * `contact_<name>.pvd`, are for ParaView. They have the nodes of the slave that may touch, with
-   * displacement, pressure, gap and normal. Places are displaced on cables and undeformed on
-   * solids, as in `body_<name>.pvd`.
+   * area, largest pressure (of a cable length and force per length) and least gap.
+   * `contact_<name>_NNNNN.vtu`, joined by `contact_<name>.pvd`, are for ParaView. They have the
+   * nodes of the slave that may touch, with displacement, pressure, gap and normal. Places are
+   * displaced on cables and undeformed on solids, as in `body_<name>.pvd`.
    */
   class ContactTables : public Observer
   {

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/nearest_name.h>
+#include <taut/base/patterns.h>
+#include <taut/base/text.h>
+#include <taut/output/section_forces.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr const char *path = "Output/section forces";
+    constexpr double per_mm = 1e-3, per_mm2 = 1e-6, per_MPa = 1e6;
+
+    std::size_t index_of(const Scene &scene, const std::string &name)
+    {
+      std::vector<std::string> known;
+      for (const Wire &wire : scene.wires)
+        known.push_back(wire.name);
+      const auto found = std::find(known.begin(), known.end(), name);
+      if (found == known.end())
+        throw EntryError(std::string(path) + "/Wires",
+                         "there is no wire '" + name + "'" + suggestion(name, known));
+      return found - known.begin();
+    }
+  } // namespace
+
+  void SectionForces::Peak::take(const double candidate, const double at, const double t)
+  {
+    if (std::fabs(candidate) > std::fabs(value))
+      *this = {candidate, at, t};
+  }
+
+  void SectionForces::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Wires", wires, "Names, separated by commas", List(Anything(), 0));
+    prm.add_parameter("Section areas", areas,
+                      "Of each of these wires, for stresses; empty: no stresses [mm^2]",
+                      List(not_negative(), 0));
+    prm.add_parameter("Diameters", diameters,
+                      "Of each of these wires, taken as round, for stresses; empty: no stresses "
+                      "[mm]",
+                      List(not_negative(), 0));
+  }
+
+  void SectionForces::begin(const StepView &step)
+  {
+    if (wires.empty())
+      throw EntryError(std::string(path) + "/Wires", "name the wires whose forces are wanted");
+    for (const auto &[list, entry] :
+         {std::pair(&areas, "Section areas"), std::pair(&diameters, "Diameters")})
+      if (!list->empty() && list->size() != wires.size())
+        throw EntryError(std::string(path) + "/" + entry,
+                         to_text("it has ", list->size(), " values for ", wires.size(),
+                                 " wires; give one for each"));
+    if (areas.empty() != diameters.empty())
+      throw EntryError(path, "stresses need both Section areas and Diameters");
+    std::vector<Section> all;
+    for (std::size_t i = 0; i < wires.size(); ++i)
+    {
+      Section section;
+      section.wire = index_of(step.scene, wires[i]);
+      const Wire &wire = step.scene.wires[section.wire];
+      section.tension = wire.tension;
+      section.EA = wire.has_axial ? wire.axial_stiffness : 0.;
+      section.EI = wire.transverse == TransverseKind::beam ? wire.bending_stiffness : 0.;
+      section.area = areas.empty() ? 0. : areas[i] * per_mm2;
+      section.diameter = diameters.empty() ? 0. : diameters[i] * per_mm;
+      section.nodes = grid(step.scene, section.wire);
+      for (const double s : section.nodes)
+        section.x.push_back(wire.at(s).x);
+      const auto find = [&](const WireMotion motion, Motion &forms)
+      {
+        for (const double s : section.nodes)
+        {
+          forms.at_nodes.emplace_back();
+          step.structure.motion(section.wire, s, motion, forms.at_nodes.back());
+        }
+        forms.values.resize(section.nodes.size());
+      };
+      if (section.EA > 0.)
+        find(WireMotion::axial, section.axial);
+      if (section.EI > 0.)
+      {
+        find(WireMotion::transverse, section.across);
+        find(WireMotion::slope, section.slope);
+      }
+      if (section.EI > 0. && wire.has_lateral)
+      {
+        find(WireMotion::lateral, section.lateral);
+        find(WireMotion::lateral_slope, section.lateral_slope);
+      }
+      all.push_back(std::move(section));
+    }
+    sections = std::move(all);
+  }
+
+  void SectionForces::record(const StepView &step)
+  {
+    if (sections.empty())
+      step.structure.communicator().agree([&] { begin(step); });
+    for (Section &section : sections)
+      measure(section, step);
+  }
+
+  void SectionForces::measure(Section &section, const StepView &step)
+  {
+    const Wire &wire = step.scene.wires[section.wire];
+    for (Motion *const motion : {&section.axial, &section.across, &section.slope, &section.lateral,
+                                 &section.lateral_slope})
+    {
+      for (std::size_t i = 0; i < motion->at_nodes.size(); ++i)
+        motion->values[i] = evaluate(motion->at_nodes[i], step.reference.displacement) +
+                            evaluate(motion->at_nodes[i], step.state.U);
+      step.structure.communicator().sum(motion->values);
+    }
+    const double d = section.diameter,
+                 modulus = dealii::numbers::PI * d * d * d / 32.; // I / (d / 2)
+    for (std::size_t i = 0; i + 1 < section.nodes.size(); ++i)
+    {
+      const double h = section.nodes[i + 1] - section.nodes[i];
+      double N = section.tension;
+      for (const TensionChange &change : wire.tension_changes)
+        if (.5 * (section.nodes[i] + section.nodes[i + 1]) > change.from &&
+            .5 * (section.nodes[i] + section.nodes[i + 1]) < change.to)
+          N += change.change;
+      if (section.EA > 0.)
+        N += section.EA * (section.axial.values[i + 1] - section.axial.values[i]) / h;
+      // Of the cubic of Hermite between two nodes, at its first and its second end.
+      const auto curvature = [&](const Motion &w, const Motion &theta, const bool second)
+      {
+        if (w.values.empty())
+          return 0.;
+        const double difference = 6. * (w.values[i + 1] - w.values[i]) / (h * h),
+                     a = theta.values[i], b = theta.values[i + 1];
+        return second ? -difference + (2. * a + 4. * b) / h : difference - (4. * a + 2. * b) / h;
+      };
+      section.force.take(N, section.x[i], step.state.time);
+      for (const bool second : {false, true})
+      {
+        const double x = section.x[second ? i + 1 : i],
+                     M = section.EI *
+                         std::hypot(curvature(section.across, section.slope, second),
+                                    curvature(section.lateral, section.lateral_slope, second));
+        section.moment.take(M, x, step.state.time);
+        if (section.area > 0. && modulus > 0.)
+          section.stress.take(N / section.area + M / modulus, x, step.state.time);
+      }
+    }
+  }
+
+  std::vector<NamedQuantity> SectionForces::quantities() const
+  {
+    std::vector<NamedQuantity> result;
+    for (std::size_t i = 0; i < wires.size(); ++i)
+    {
+      const Section section = sections.empty() ? Section() : sections[i];
+      const auto add =
+          [&](const std::string &what, const Peak &peak, const std::string &unit, const double size)
+      {
+        result.push_back({wires[i], "largest " + what, peak.value / size, unit});
+        result.push_back({wires[i], "x of the largest " + what, peak.x, "m"});
+        result.push_back({wires[i], "time of the largest " + what, peak.time, "s"});
+      };
+      add("tension", section.force, "N", 1.);
+      add("bending moment", section.moment, "N m", 1.);
+      if (!areas.empty())
+        add("stress", section.stress, "N/mm^2", per_MPa);
+    }
+    return result;
+  }
+
+  void SectionForces::report(std::ostream &log, bool) const
+  {
+    for (std::size_t i = 0; i < sections.size(); ++i)
+    {
+      const Section &s = sections[i];
+      const auto text = [](const Peak &peak, const double size, const char *const unit)
+      {
+        return to_text(std::setprecision(4), peak.value / size, unit, " at x = ", peak.x,
+                       " m, t = ", peak.time, " s");
+      };
+      log << "Section of wire '" << wires[i] << "': largest tension " << text(s.force, 1., " N")
+          << "; bending moment " << text(s.moment, 1., " N m");
+      if (!areas.empty())
+        log << "; stress " << text(s.stress, per_MPa, " N/mm^2");
+      log << '\n';
+    }
+  }
+
+  void SectionForces::save(OutputArchive &archive)
+  {
+    for (const Section &section : sections)
+      archive << section.force << section.moment << section.stress;
+  }
+
+  void SectionForces::resume(InputArchive &archive, const StepView &step)
+  {
+    step.structure.communicator().agree([&] { begin(step); });
+    for (Section &section : sections)
+      archive >> section.force >> section.moment >> section.stress;
+  }
+
+  namespace
+  {
+    const Register<Observer, SectionForces>
+        registration("section forces",
+                     "largest tension, bending moment and stress of wires, with place and "
+                     "time, in the log, statistics.json and sweeps");
+  }
+} // namespace taut
