@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <map>
 #include <sstream>
+#include <utility>
 
 namespace taut
 {
@@ -64,14 +67,18 @@ namespace taut
         std::string safe;
         for (const char c : name)
           safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-        out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">" << safe << "</text>\n";
+        // Names of one place stand above each other.
+        constexpr double line_height = 12.;
+        const int before = n_labels[{std::lround(X(p)), std::lround(Y(p))}]++;
+        out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. - line_height * before << "\">"
+            << safe << "</text>\n";
       }
 
       std::string end()
       {
         out << "<text x=\"8\" y=\"14\">black: wires and cables, blue: supports and ground, green: "
                "masses, red: links (hollow: unilateral); heights x "
-            << sy / sx << "</text>\n</svg>\n";
+            << std::setprecision(2) << sy / sx << "</text>\n</svg>\n";
         return out.str();
       }
 
@@ -88,6 +95,7 @@ namespace taut
 
       double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
       double sx = 1., sy = 1., width = 0., height = 0.;
+      std::map<std::pair<long, long>, int> n_labels; ///< at a pixel
       std::ostringstream out;
     };
 
