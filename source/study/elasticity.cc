@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
 #include <taut/base/text.h>
@@ -21,7 +22,8 @@ namespace taut
 {
   namespace
   {
-    constexpr const char *table_file = "elasticity.csv", *summary_file = "elasticity.json";
+    constexpr const char *table_file = "elasticity.csv", *summary_file = "elasticity.json",
+                         *entries_file = "elasticity.prm";
 
     /// A scene at rest, whose wires other scenes share.
     struct AtRest
@@ -117,7 +119,7 @@ namespace taut
 
   const std::vector<ElasticityOfWire> &Elasticity::run()
   {
-    for (const char *const name : {table_file, summary_file})
+    for (const char *const name : {table_file, summary_file, entries_file})
       if (const std::string path = parameters.output.folder + "/" + name;
           !overwrite && std::filesystem::exists(path))
         throw UserError("'" + path +
@@ -203,6 +205,10 @@ namespace taut
                                   {"non-uniformity u [%]", 100. * wire.nonuniformity()}});
     }
     std::filesystem::create_directories(parameters.output.folder);
+    std::ostringstream entries;
+    parameters.print(entries);
+    copy_data_files(data_files(), parameters.output.folder);
+    write_file(parameters.output.folder + "/" + entries_file, entries.str());
     write_file(parameters.output.folder + "/" + table_file, table.str());
     write_file(parameters.output.folder + "/" + summary_file, summary.dump(2) + '\n');
   }

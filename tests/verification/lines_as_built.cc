@@ -381,6 +381,22 @@ TEST(Elasticity, is_that_of_two_static_states_at_each_place)
   }
 }
 
+// Claim: the folder has what it takes to measure the same again.
+TEST(Elasticity, can_be_repeated_from_its_folder)
+{
+  Session session(scene_file("en50318_2002_250"));
+  std::ostringstream log;
+  const auto run = [&](const std::string &file, const Overrides &overrides)
+  {
+    taut::Elasticity elasticity(file, overrides, true, log);
+    elasticity.run();
+    return file_text(session.folder() + "/elasticity.csv");
+  };
+  const std::string first = run(scene_file("en50318_2002_250"),
+                                {"Output/Folder=" + session.folder(), "Elasticity/Range=240, 250"});
+  EXPECT_EQ(run(session.folder() + "/elasticity.prm", {}), first);
+}
+
 TEST(Elasticity, is_linear_as_long_as_no_dropper_opens)
 {
   const taut::ElasticityOfWire linear = elasticity_of_line({"Elasticity/Spacing=20"}),

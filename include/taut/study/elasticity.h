@@ -39,7 +39,8 @@ namespace taut
     /// As Simulation::stop_if(), asked after each place.
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
-    /// Measures all places, and writes elasticity.csv and elasticity.json into Output/Folder.
+    /// Measures all places, and writes elasticity.csv, elasticity.json and its entries,
+    /// elasticity.prm, into Output/Folder.
     const std::vector<ElasticityOfWire> &run();
 
   private:
