@@ -34,7 +34,7 @@ namespace taut
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
                             point.is_moment ? "N m" : "N");
     for (const Probe &probe : scene.probes)
-      probes.add_quantity(probe.name, probe.rotational ? "rad" : "m");
+      probes.add_quantity(probe.name, probe.unit());
     const std::pair<IntervalTable *, const char *> tables[] = {
         {&sliding, "/sliding"}, {&links, "/links"}, {&supports, "/supports"}, {&probes, "/probes"}};
     for (const auto &[table, name] : tables)

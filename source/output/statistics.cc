@@ -28,7 +28,7 @@ namespace taut
         link.dropper.keeps_reversals = link.is_dropper && parameters.has_table("cycles");
       }
     for (const Probe &probe : scene.probes)
-      probes.push_back({probe.name, probe.rotational});
+      probes.push_back({probe.name, probe.unit(), probe.quantity == Probe::Quantity::displacement});
     for (const SupportPoint &point : support_points(scene))
       supports.push_back({point.name, point.is_moment});
   }
@@ -230,7 +230,7 @@ namespace taut
     }
     for (const ProbeQuantities &probe : probes)
     {
-      const std::string unit = probe.rotates ? "rad" : "m";
+      const std::string &unit = probe.unit;
       list.insert(list.end(), {{probe.name, "largest", probe.largest, unit},
                                {probe.name, "smallest", probe.smallest, unit},
                                {probe.name, "last", probe.last, unit}});

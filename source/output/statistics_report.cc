@@ -67,10 +67,11 @@ namespace taut
 
   std::vector<Statistics::Quantity> Statistics::table(const ProbeQuantities &probe) const
   {
-    const std::string unit = probe.rotates ? "mrad" : "mm";
-    return {{"Largest", unit, 1e3 * probe.largest,
-             probe.rotates ? std::vector<double>() : expected_range("Uplift")},
-            {"Smallest", unit, 1e3 * probe.smallest}};
+    const double scale = probe.is_displacement ? 1e3 : 1.;
+    const std::string unit = (probe.is_displacement ? "m" : "") + probe.unit;
+    return {{"Largest", unit, scale * probe.largest,
+             unit == "mm" ? expected_range("Uplift") : std::vector<double>()},
+            {"Smallest", unit, scale * probe.smallest}};
   }
 
   Statistics::Verdict Statistics::verdict() const
@@ -209,8 +210,11 @@ namespace taut
     out << std::fixed << std::setprecision(2);
     for (const Contact &contact : contacts)
       print_contact(contact, out);
+    const bool has_rates = std::any_of(probes.begin(), probes.end(),
+                                       [](const ProbeQuantities &p) { return !p.is_displacement; });
     if (!probes.empty())
-      out << "Displacement of the probes along their directions: largest, smallest\n";
+      out << (has_rates ? "Probes" : "Displacement of the probes")
+          << " along their directions: largest, smallest\n";
     for (const ProbeQuantities &probe : probes)
     {
       const std::vector<Quantity> rows = table(probe);

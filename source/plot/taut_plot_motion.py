@@ -20,7 +20,9 @@ def probes(results, _):
     if len(table) < 2:
         return None, "probes.csv has one line only"
     kinds = [(*moving(list(table.series(ending))), what, unit) for ending, what, unit in
-             ((" [m]", "displacement", "m"), (" [rad]", "rotation", "rad"))]
+             ((" [m]", "displacement", "m"), (" [rad]", "rotation", "rad"), (" [m/s]", "velocity", "m/s"),
+              (" [m/s^2]", "acceleration", "m/s²"), (" [rad/s]", "angular velocity", "rad/s"),
+              (" [rad/s^2]", "angular acceleration", "rad/s²"))]
     said = [left_out(still, f"{what}s" if still > 1 else what) for _, still, what, _ in kinds if still]
     kinds = [kind for kind in kinds if kind[0]]
     if not kinds:

@@ -366,6 +366,10 @@ namespace taut
         probes.begin(probe.name);
         probes.set("Point", text_of(scene, probe.point));
         probes.set_direction(probe.rotational, probe.direction, true);
+        probes.set_text("displacement", "Quantity",
+                        probe.quantity == Probe::Quantity::velocity       ? "velocity"
+                        : probe.quantity == Probe::Quantity::acceleration ? "acceleration"
+                                                                          : "displacement");
       }
     }
   } // namespace

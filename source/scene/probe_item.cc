@@ -6,6 +6,14 @@
 
 namespace taut
 {
+  std::string Probe::unit() const
+  {
+    const std::string length = rotational ? "rad" : "m";
+    return length + (quantity == Quantity::velocity       ? "/s"
+                     : quantity == Quantity::acceleration ? "/s^2"
+                                                          : "");
+  }
+
   void ProbeItem::declare(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
@@ -14,6 +22,11 @@ namespace taut
                       "'x, y' or 'x, y, z'; the length does not matter. Empty: 0, 1",
                       List(Double(), 0, 3));
     prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
+    prm.add_parameter("Quantity", quantity,
+                      "What is recorded: displacements from rest [m, rad], or velocities [m/s, "
+                      "rad/s] or accelerations [m/s^2, rad/s^2] as the scheme has them at the ends "
+                      "of steps",
+                      Selection("displacement|velocity|acceleration"));
     prm.add_parameter("Axis", axis,
                       "Of a rotation, 'x, y, z'; the length does not matter. Empty: z",
                       List(Double(), 0, 3));
@@ -29,6 +42,9 @@ namespace taut
       probe.origin = title;
       probe.point = points[k];
       probe.rotational = rotational;
+      probe.quantity = quantity == "velocity"       ? Probe::Quantity::velocity
+                       : quantity == "acceleration" ? Probe::Quantity::acceleration
+                                                    : Probe::Quantity::displacement;
       probe.direction = parse_direction_or_axis(rotational, direction, axis, title);
       scene.probes.push_back(probe);
     }

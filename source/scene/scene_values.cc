@@ -100,7 +100,10 @@ namespace taut
         all(l.name, l.origin, l.kind, l.target, l.rotational, l.direction, l.magnitude, l.speed,
             l.travel, l.acts_while_built);
       }
-      void write(const Probe &p) { all(p.name, p.origin, p.point, p.rotational, p.direction); }
+      void write(const Probe &p)
+      {
+        all(p.name, p.origin, p.point, p.rotational, p.direction, p.quantity);
+      }
 
       OutputArchive &archive;
     };

@@ -38,7 +38,10 @@ namespace taut
   {
     if (!own_scene)
       throw UserError("probe '" + name + "': the probes of a scene are part of it");
-    own_scene->probes.push_back({name, "", {}, rotational});
+    Probe probe;
+    probe.name = name;
+    probe.rotational = rotational;
+    own_scene->probes.push_back(probe);
     probe_terms.push_back(form);
     probe_values.assign(probe_terms.size(), 0.);
     set_rest_of_probes(motion.reference().displacement);
@@ -47,8 +50,10 @@ namespace taut
   void ObservedRun::set_rest_of_probes(const BodyVectors &rest)
   {
     probe_rest.clear();
-    for (const std::vector<Term> &terms : probe_terms)
-      probe_rest.push_back(evaluate(terms, rest));
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_rest.push_back(named.probes[i].quantity == Probe::Quantity::displacement
+                               ? evaluate(probe_terms[i], rest)
+                               : 0.);
     processes().sum(probe_rest);
   }
 
@@ -168,8 +173,19 @@ namespace taut
   void ObservedRun::update_probes(const State &state)
   {
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
-      probe_values[i] = evaluate(probe_terms[i], motion.reference().displacement) +
-                        evaluate(probe_terms[i], state.U);
+      switch (named.probes[i].quantity)
+      {
+      case Probe::Quantity::displacement:
+        probe_values[i] = evaluate(probe_terms[i], motion.reference().displacement) +
+                          evaluate(probe_terms[i], state.U);
+        break;
+      case Probe::Quantity::velocity:
+        probe_values[i] = evaluate(probe_terms[i], state.V);
+        break;
+      case Probe::Quantity::acceleration:
+        probe_values[i] = evaluate(probe_terms[i], state.A);
+        break;
+      }
     // The signal to stop shares a message, so that all ranks stop at the same step.
     const int asked = stop_asked ? stop_asked() : 0;
     probe_values.push_back(asked);

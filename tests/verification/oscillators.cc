@@ -7,6 +7,8 @@
 // the complex amplitude of a base-excited oscillator and its free motion say.
 #include "scene_tests.h"
 
+#include <taut/scene/network_entries.h>
+
 #include <complex>
 
 using namespace verification;
@@ -180,4 +182,45 @@ TEST(Oscillator, mass_on_a_base_that_moves)
     EXPECT_NEAR(of_place[n], of_time[n], 1e-13);
     EXPECT_NEAR(of_speed[n], of_time[n], 1e-11);
   }
+}
+
+// Claim: probes of velocity and acceleration have those of the motion. Source: u = a cos omega t.
+TEST(Oscillator, probes_have_its_velocity_and_acceleration)
+{
+  const double a = .01, omega = 20.;
+  const std::string scene =
+      "Gravity = 0, 0; Start = given\n"
+      "Mass mass: Position = 0, 0; Mass = 2; Motions = y; Initial displacement = 0, 0.01, 0\n"
+      "Spring spring: From = ground; To = mass; Stiffness = 800\n"
+      "Output: Probes = place, speed, acceleration\n"
+      "Output/Probe place: Point = mass\n"
+      "Output/Probe speed: Point = mass; Quantity = velocity\n"
+      "Output/Probe acceleration: Point = mass; Quantity = acceleration\n"
+      "Time: Scheme = generalised-alpha; Step = 2e-4; End = 0.5\n";
+  double errors[3] = {};
+  Session session(scene, {"Output/Interval=0"});
+  session.run(
+      [&](const taut::StepView &view)
+      {
+        const double t = view.state.time;
+        const double expected[] = {a * std::cos(omega * t), -a * omega * std::sin(omega * t),
+                                   -a * omega * omega * std::cos(omega * t)};
+        for (int k = 0; k < 3; ++k)
+          if (t > 0.)
+            raise(errors[k], view.probes[k] - expected[k]);
+      });
+  const double sizes[] = {a, a * omega, a * omega * omega};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT(errors[k], 2e-3 * sizes[k]) << k;
+  const auto table = read_table(session.folder() + "/probes.csv");
+  EXPECT_EQ(table.count("speed [m/s]"), 1u);
+  EXPECT_EQ(table.count("acceleration [m/s^2]"), 1u);
+  EXPECT_TRUE(has(session.log(), "Probes along their directions: largest, smallest"))
+      << session.log();
+  EXPECT_TRUE(has(session.log(), "m/s^2")) << session.log();
+  const auto entries = taut::network_entries(session.simulation().scene());
+  EXPECT_EQ(std::count_if(entries.begin(), entries.end(),
+                          [](const taut::WrittenEntry &entry)
+                          { return entry.path.back() == "Quantity"; }),
+            2);
 }

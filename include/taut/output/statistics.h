@@ -101,11 +101,11 @@ namespace taut
       LinkForce dropper = {};
     };
 
-    /// Displacement of a probe from rest.
+    /// Displacement of a probe from rest, or its velocity or acceleration.
     struct ProbeQuantities
     {
-      std::string name;
-      bool rotates = false;
+      std::string name, unit;
+      bool is_displacement = true;
       double largest = 0., smallest = 0., last = 0.;
     };
 

@@ -20,6 +20,7 @@ namespace taut
     std::string point;
     std::vector<double> direction, axis;
     bool rotational = false;
+    std::string quantity = "displacement";
     void declare(dealii::ParameterHandler &prm);
 
     /// Adds its probes to a scene with all wires, masses and bodies. @p title is the path of its

@@ -355,11 +355,21 @@ namespace taut
   /// about this direction. The largest uplift is reported.
   struct Probe
   {
+    enum class Quantity
+    {
+      displacement,
+      velocity,    ///< as the scheme has it at the end of a step
+      acceleration ///< the same
+    };
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Attachment point;
     bool rotational = false;
     Coordinates direction = {0., 1.};
+    Quantity quantity = Quantity::displacement;
+
+    /// "m", "rad", "m/s" and so on.
+    std::string unit() const;
   };
 
   /// The model as plain values. A SceneGenerator fills it; SceneBodies makes bodies from it.
