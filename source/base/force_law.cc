@@ -60,14 +60,23 @@ namespace taut
     return *std::max_element(k.begin(), k.end());
   }
 
-  std::string TableLaw::description() const
+  std::string TableLaw::points(const int digits) const
   {
     std::ostringstream out;
-    out.precision(15);
-    out << "table";
+    out.precision(digits);
     for (std::size_t i = 1; i < u.size(); ++i)
-      out << (i > 1 ? ", " : " ") << u[i] << ':' << f[i];
+      out << (i > 1 ? ", " : "") << u[i] << ':' << f[i];
     return out.str();
+  }
+
+  std::string TableLaw::description() const
+  {
+    return "table " + points(15);
+  }
+
+  std::vector<std::pair<std::string, std::string>> TableLaw::entries() const
+  {
+    return {{"Law", "table"}, {"Law points", points(17)}};
   }
 
   std::size_t TableLaw::segment(const double at) const

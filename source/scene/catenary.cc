@@ -47,6 +47,13 @@ namespace taut
         List(not_negative(), 0));
     prm.add_parameter("Bump stop stiffnesses", stop_stiffnesses, "Of these stops [N/m]",
                       List(not_negative(), 0));
+    prm.add_parameter(
+        "Bump stop laws", stop_laws,
+        "Of stops whose stiffness changes, in place of it: for each mass, with ';' between "
+        "them, nothing or the force over the compression beyond the gap, as 'compression: "
+        "force, ...', both increasing from 0:0, linear between points and on beyond the last "
+        "[m: N]",
+        Anything());
     prm.add_parameter("Static force", static_force,
                       "Upwards on the lowest mass, net of the weight [N]", Double());
     prm.add_parameter("Base motion", base_motion,
@@ -216,6 +223,7 @@ namespace taut
                                 const std::size_t first, Scene &scene) const
   {
     const std::string section = "Catenary/Pantograph " + name;
+    const auto laws = stop_laws(item, section);
     for (std::size_t i = 0; i < item.stop_gaps.size(); ++i)
     {
       if (item.stop_gaps[i] == 0.)
@@ -228,7 +236,8 @@ namespace taut
         stop.from = {Attachment::Kind::mass, first + i + 1, 0.};
       stop.to = {Attachment::Kind::mass, first + i, 0.};
       stop.gap = item.stop_gaps[i];
-      stop.stiffness = item.stop_stiffnesses[i];
+      stop.law = laws[i];
+      stop.stiffness = stop.law ? stop.law->largest_stiffness() : item.stop_stiffnesses[i];
       scene.links.push_back(stop);
     }
   }

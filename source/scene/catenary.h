@@ -9,6 +9,7 @@
 #include <taut/scene/scene_generator.h>
 #include <taut/scene/travel.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ namespace taut
       std::vector<double> lift, stop_gaps, stop_stiffnesses;
       double static_force = 120., start = 60.;
       double strip_distance = 0., head_inertia = 0., pitch_stiffness = 0., pitch_damping = 0.;
-      std::string speed = "250", base_motion;
+      std::string speed = "250", base_motion, stop_laws;
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
       bool faster_than_waves = false;
@@ -54,6 +55,10 @@ namespace taut
     static Speed speed_of(const PantographItem &item, const std::string &section);
     static bool is_as_fast(const PantographItem &a, const PantographItem &b,
                            const std::string &section);
+    /// Laws of the bump stops, one for each mass; null where there is none.
+    static std::vector<std::shared_ptr<const ForceLaw>> stop_laws(const PantographItem &item,
+                                                                  const std::string &section);
+    void check_bump_stops(const PantographItem &item, const std::string &section) const;
     void check_lists(const PantographItem &item, const std::string &section) const;
     void add_pantograph(const std::string &name, const PantographItem &item, const Line &line,
                         Scene &scene) const;

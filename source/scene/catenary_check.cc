@@ -118,12 +118,44 @@ namespace taut
         throw EntryError(section + entry, std::to_string(list->size()) + " values for " +
                                               std::to_string(n) +
                                               " Masses; give one for each, or none");
-    for (std::size_t i = 0; i < item.stop_gaps.size(); ++i)
-      if (item.stop_gaps[i] > 0. &&
-          !(i < item.stop_stiffnesses.size() && item.stop_stiffnesses[i] > 0.))
+    check_bump_stops(item, section);
+  }
+
+  std::vector<std::shared_ptr<const ForceLaw>> Catenary::stop_laws(const PantographItem &item,
+                                                                   const std::string &section)
+  {
+    const std::string entry = section + "/Bump stop laws";
+    const std::vector<std::string> tables = split(item.stop_laws, ';');
+    if (tables.size() > item.masses.size())
+      throw EntryError(entry, to_text(tables.size(), " laws for ", item.masses.size(),
+                                      " Masses; give one for each, with ';' between them"));
+    std::vector<std::shared_ptr<const ForceLaw>> laws(item.masses.size());
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      if (!tables[i].empty())
+        laws[i] = parse_table_law(tables[i], entry);
+    return laws;
+  }
+
+  void Catenary::check_bump_stops(const PantographItem &item, const std::string &section) const
+  {
+    const auto laws = stop_laws(item, section);
+    for (std::size_t i = 0; i < item.masses.size(); ++i)
+    {
+      const std::string mass = "mass " + std::to_string(i + 1);
+      const bool is_stopped = i < item.stop_gaps.size() && item.stop_gaps[i] > 0.,
+                 has_stiffness = i < item.stop_stiffnesses.size() && item.stop_stiffnesses[i] > 0.;
+      if (laws[i] && !is_stopped)
+        throw EntryError(section + "/Bump stop laws",
+                         mass + " has a law, but no stop; give it one of the Bump stop gaps");
+      if (laws[i] && has_stiffness)
+        throw EntryError(section + "/Bump stop laws",
+                         mass +
+                             " has a law and one of the Bump stop stiffnesses; give one of both");
+      if (is_stopped && !laws[i] && !has_stiffness)
         throw EntryError(section + "/Bump stop stiffnesses",
-                         "give a positive one for each bump stop, of mass " +
-                             std::to_string(i + 1) + " too");
+                         "give a positive one for each bump stop, of " + mass +
+                             " too, or one of the Bump stop laws");
+    }
   }
 
   Speed Catenary::speed_of(const PantographItem &item, const std::string &section)

@@ -48,6 +48,13 @@ namespace taut
         return "formula " + formula.content() + " up to " + number(range);
       }
 
+      std::vector<std::pair<std::string, std::string>> entries() const override
+      {
+        return {{"Law", "formula"},
+                {"Law formula", formula.formula()},
+                {"Law range", to_text(std::setprecision(17), range)}};
+      }
+
     private:
       static constexpr double rounding = 1e-12;
 
@@ -142,6 +149,12 @@ namespace taut
     }
   } // namespace
 
+  std::shared_ptr<const ForceLaw> parse_table_law(const std::string &points,
+                                                  const std::string &entry)
+  {
+    return std::make_shared<TableLaw>(parse_points(points, entry));
+  }
+
   std::shared_ptr<const ForceLaw> parse_law(const std::string &kind, const std::string &points,
                                             const std::string &formula, const double range,
                                             const std::string &title)
@@ -152,7 +165,7 @@ namespace taut
       throw EntryError(title + (formula.empty() ? "/Law range" : "/Law formula"),
                        "it is for 'Law = formula'; set it, or remove this");
     if (kind == "table")
-      return std::make_shared<TableLaw>(parse_points(points, title + "/Law points"));
+      return parse_table_law(points, title + "/Law points");
     if (kind != "formula")
       return nullptr;
     if (!(range > 0.))

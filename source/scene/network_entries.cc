@@ -295,6 +295,15 @@ namespace taut
       }
     }
 
+    void write_law(Items &items, const Link &link)
+    {
+      const auto entries = link.law->entries();
+      if (entries.empty())
+        throw UserError("link '" + link.name + "' has a law of a program, which no entry says");
+      for (const auto &[entry, value] : entries)
+        items.set(entry, value);
+    }
+
     void write_link(Items &items, const Link &link, const Scene &scene)
     {
       const bool has_length = link.unstressed_length > 0.;
@@ -302,14 +311,17 @@ namespace taut
         throw UserError(
             "link '" + link.name +
             "' has a Length and a Gap that does not follow from it, which no entry says");
-      if (link.law || link.travel)
-        throw UserError("link '" + link.name + "' has a " + (link.law ? "law" : "way") +
-                        " that is not written out; its parameter file says it");
+      if (link.travel)
+        throw UserError("link '" + link.name +
+                        "' has a way that is not written out; its parameter file says it");
       if (link.turns)
         items.set("Turns", "true");
       else
         items.set_direction(link.rotational, link.direction, false);
-      items.set_text("rigid", "Stiffness", link.rigid() ? "rigid" : number(link.stiffness));
+      if (link.law)
+        write_law(items, link);
+      else
+        items.set_text("rigid", "Stiffness", link.rigid() ? "rigid" : number(link.stiffness));
       items.set_number(0., "Damping", link.damping);
       if (has_length)
         items.set("Length", number(link.unstressed_length));

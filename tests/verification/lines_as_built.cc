@@ -292,6 +292,36 @@ Statistics: Window =
   EXPECT_EQ(n_seen, 1);
 }
 
+// Claim: a bump stop with a law pushes as its table says. Reference: the table of two straight
+// parts, 200 N at 2 mm and 2 kN at 4 mm beyond the gap, solved for the compression under 330 N
+// and 1.2 kN.
+TEST(LinesAsBuilt, a_bump_stop_follows_its_table)
+{
+  for (const double force : {330., 1200.})
+  {
+    int n_seen = 0;
+    run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
+Pantograph pantograph: Masses = 7, 15, 4; Stiffnesses = 5000, 1e6, 0; Dampings = 10, 90, 0; Start = 20;
+  Speed = 0; Bump stop gaps = 0.03, 0, 0; Static force = )" +
+                  number(force) + "\nStatistics: Window =\n",
+              {"Catenary/Pantograph pantograph/Bump stop laws=0.002: 200, 0.004: 2000; "},
+              [&](const taut::StepView &view)
+              {
+                ++n_seen;
+                ASSERT_EQ(view.scene.links.size(), 2u);
+                ASSERT_TRUE(has(view.scene.links[0].name, "bump stop 1"));
+                const double compression = displacement(view, point_of_mass(view, 1)) -
+                                           displacement(view, point_of_mass(view, 0));
+                const double expected = 5e3 * .032 + 200. > force
+                                            ? (force + .03 * 1e5) / (5e3 + 1e5)
+                                            : (force - 200. + .032 * 9e5) / (5e3 + 9e5);
+                EXPECT_NEAR(compression, expected, 1e-12);
+                EXPECT_NEAR(view.state.multiplier[0], force - 5e3 * expected, 1e-8);
+              });
+    EXPECT_EQ(n_seen, 1);
+  }
+}
+
 // Claim: the base motion of a pantograph is that of the roof under its lowest spring. References: a
 // roof 10 mm up is a static force of 10 mm times the lowest stiffness, 500 N/m; a motion in time is
 // that over the place at a constant speed. What spring and damper make of a motion is the claim of

@@ -109,6 +109,25 @@ TEST(WrittenNetwork, droppers_of_given_lengths_run_bit_by_bit)
                   5);
 }
 
+TEST(WrittenNetwork, bump_stops_with_laws_run_bit_by_bit)
+{
+  expect_same_run(
+      "en50318_2002_250",
+      Overrides{"Catenary.Pantograph pantograph.Bump stop gaps=0.01, 0",
+                "Catenary.Pantograph pantograph.Bump stop laws=0.001: 0.1, 0.003: 77.7"} +
+          short_run,
+      5);
+}
+
+TEST(WrittenNetwork, laws_by_formula_run_bit_by_bit)
+{
+  expect_same_run("oscillator_with_stop",
+                  {"Network.Link stop.Stiffness=rigid", "Network.Link stop.Law=formula",
+                   "Network.Link stop.Law formula=1e4*d+1e9*d^3",
+                   "Network.Link stop.Law range=0.0123456789"},
+                  1);
+}
+
 TEST(WrittenNetwork, parameters_of_studies_that_vary_the_generator_are_left_out)
 {
   const Written written(scene_file("en50318_2002_250"), {});

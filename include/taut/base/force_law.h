@@ -41,6 +41,10 @@ namespace taut
     /// A short description of the law with all its numbers.
     virtual std::string description() const = 0;
 
+    /// Entries of a link, and their values, from which this law is read back to the last bit; none
+    /// if no entries say it.
+    virtual std::vector<std::pair<std::string, std::string>> entries() const { return {}; }
+
   private:
     virtual double value(double u) const = 0;
     virtual double slope(double u) const = 0;
@@ -59,8 +63,10 @@ namespace taut
 
     double largest_stiffness() const override;
     std::string description() const override;
+    std::vector<std::pair<std::string, std::string>> entries() const override;
 
   private:
+    std::string points(int digits) const;
     std::size_t segment(double u) const;
     double value(double u) const override;
     double slope(double u) const override;

@@ -25,6 +25,11 @@ namespace taut
                                             const std::string &formula, double range,
                                             const std::string &title);
 
+  /// The law of a table of points "elongation: force, ..." [m, rad: N, N m], read from @p entry.
+  /// Throws EntryError unless both increase from 0.
+  std::shared_ptr<const ForceLaw> parse_table_law(const std::string &points,
+                                                  const std::string &entry);
+
   /// A point "x, y" or "x, y, z"; two numbers are in the plane z = 0.
   Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry);
 
