@@ -106,6 +106,21 @@ namespace taut
       entry["height_range"] = quantity(1e3 * f.height_range, "mm");
     }
 
+    static json of(const LineConstants &line)
+    {
+      json entry = {{"wire", line.wire},
+                    {"speed", quantity(line.speed, "m/s")},
+                    {"wave_speed", quantity(line.wave_speed, "m/s")},
+                    {"speed_over_wave_speed", quantity(line.speed / line.wave_speed, "1")},
+                    {"doppler_factor", quantity(line.doppler, "1")}};
+      if (line.reflection > 0.)
+      {
+        entry["reflection_at_droppers"] = quantity(line.reflection, "1");
+        entry["amplification"] = quantity(line.amplification, "1");
+      }
+      return entry;
+    }
+
     static json shares(const Statistics &all, const Contact &contact)
     {
       json result = json::object();
@@ -158,6 +173,9 @@ namespace taut
         {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
         {"scheme", run.scheme},      {"step", time(run.step)},     {"end", time(run.end)},
         {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
+    json &of_lines = root["line_constants"] = json::object();
+    for (const LineConstants &line : lines)
+      of_lines[line.contact] = Json::of(line);
     json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
       of_contacts[contact.of.name] = Json::of(*this, contact);
@@ -167,17 +185,9 @@ namespace taut
     json &of_links = root["links"] = json::object();
     for (const LinkQuantities &link : links)
     {
-      const std::string unit = link.rotates ? "N m" : "N";
-      of_links[link.name] = {{"open_time", time(link.open_time)},
-                             {"largest_force", quantity(link.largest_force, unit)},
-                             {"impulse", quantity(link.impulse, unit + " s")},
-                             {"largest_impulse", quantity(link.largest_impulse, unit + " s")}};
-      if (link.is_dropper)
-        of_links[link.name].update(
-            {{"smallest_force", quantity(link.dropper.least, unit)},
-             {"mean_force", quantity(link.dropper.mean, unit)},
-             {"standard_deviation", quantity(link.dropper.deviation(), unit)},
-             {"slackenings", link.dropper.n_slackenings}});
+      json &entry = of_links[link.name] = json::object();
+      for (const NamedQuantity &q : named(link))
+        entry[identifier(q.quantity)] = quantity(q.value, q.unit);
     }
     json &of_supports = root["supports"] = json::object();
     for (const SupportQuantities &support : supports)

@@ -4,6 +4,7 @@
 
 #include <taut/output/contact_figures.h>
 #include <taut/output/contact_quantities.h>
+#include <taut/output/line_constants.h>
 #include <taut/output/link_force.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
@@ -129,6 +130,10 @@ namespace taut
     ContactQuantities quantities(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
 
+    /// What the file and named_quantities() have of an item.
+    std::vector<NamedQuantity> named_figures(const Contact &contact) const;
+    static std::vector<NamedQuantity> named(const LinkQuantities &link);
+
     /// A row of a table.
     struct Quantity
     {
@@ -161,6 +166,7 @@ namespace taut
     void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;
+    std::vector<LineConstants> lines;
     std::vector<Contact> contacts;
     std::vector<LinkQuantities> links;
     std::vector<ProbeQuantities> probes;
