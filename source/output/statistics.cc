@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
 #include <taut/base/text.h>
+#include <taut/output/low_pass.h>
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
@@ -12,13 +13,16 @@ namespace taut
 {
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
                          const Constraints &rows)
-      : parameters(parameters), lines(line_constants(scene))
+      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene))
   {
     for (SlidingContact &contact : sliding_contacts(scene, rows))
     {
       contacts.push_back({std::move(contact)});
       contacts.back().wires.resize(contacts.back().of.links.size());
-      contacts.back().has_height = contacts.back().of.links[0] < scene.links.size();
+      const std::size_t first = contacts.back().of.links[0];
+      contacts.back().has_height = first < scene.links.size();
+      if (first < scene.links.size() && scene.links[first].to.kind == Attachment::Kind::wire)
+        contacts.back().wire = scene.links[first].to.index;
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
@@ -95,6 +99,8 @@ namespace taut
     times.push_back(state.time);
     measures = &step.measures;
     rows = &step.constraints;
+    if (is_start)
+      find_sags(step, spanned);
     record_contacts(step);
     record_links(step, dt);
     for (std::size_t i = 0; i < probes.size(); ++i)
@@ -152,6 +158,9 @@ namespace taut
           .largest_impulse &link.dropper;
     for (ProbeQuantities &probe : probes)
       archive &probe.largest &probe.smallest &probe.last;
+    for (SpannedWire &wire : spanned)
+      for (Span &span : wire.spans)
+        archive &span.sag;
     for (SupportQuantities &support : supports)
       archive &support.start &support.largest &support.smallest;
   }
@@ -184,6 +193,17 @@ namespace taut
       result.add(contact.wires[i]);
     add_places(contact, result);
     return result;
+  }
+
+  /// The record with equal steps, low-passed as quantities() are.
+  ContactRecord Statistics::judged(const Contact &contact) const
+  {
+    ContactRecord record = sum(contact).at_equal_steps(times);
+    if (quantities(contact).is_filtered)
+      record.force =
+          low_pass(record.force, (times.back() - times.front()) / (record.force.size() - 1),
+                   parameters.filter_frequency);
+    return record;
   }
 
   ContactFigures Statistics::figures(const Contact &contact) const

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <map>
 
 namespace taut
 {
@@ -121,6 +122,50 @@ namespace taut
       return entry;
     }
 
+    /// By wire.
+    static json of_spans(const Statistics &all)
+    {
+      std::map<std::string, std::size_t> n_slackenings;
+      for (const LinkQuantities &link : all.links)
+        n_slackenings[link.name] = link.dropper.n_slackenings;
+      json result = json::object();
+      for (const SpannedWire &wire : all.spanned)
+      {
+        json &entries = result[wire.name] = json::array();
+        for (const Span &span : wire.spans)
+        {
+          std::size_t n = 0;
+          for (const std::string &dropper : span.droppers)
+            n += n_slackenings[dropper];
+          entries.push_back({{"from", quantity(span.from, "m")},
+                             {"to", quantity(span.to, "m")},
+                             {"sag", quantity(1e3 * span.sag, "mm")},
+                             {"slackenings", n}});
+        }
+        for (const Contact &contact : all.contacts)
+          if (contact.wire == wire.wire)
+            add_forces(all, contact, wire.spans, entries);
+      }
+      return result;
+    }
+
+    static void add_forces(const Statistics &all, const Contact &contact,
+                           const std::vector<Span> &spans, json &entries)
+    {
+      const ContactRecord record = all.judged(contact);
+      for (std::size_t i = 0; i < spans.size(); ++i)
+      {
+        const SpanForce f = SpanForce::of(spans[i], record, all.parameters);
+        if (f.n_samples > 0)
+          entries[i]["contact_forces"][contact.of.name] = {
+              {"samples", f.n_samples},
+              {"mean", quantity(f.moments.mean, "N")},
+              {"standard_deviation", quantity(f.moments.deviation, "N")},
+              {"maximum", quantity(f.moments.maximum, "N")},
+              {"minimum", quantity(f.moments.minimum, "N")}};
+      }
+    }
+
     static json shares(const Statistics &all, const Contact &contact)
     {
       json result = json::object();
@@ -197,6 +242,7 @@ namespace taut
                                    {"largest", quantity(support.largest, unit)},
                                    {"smallest", quantity(support.smallest, unit)}};
     }
+    root["spans"] = Json::of_spans(*this);
     for (const NamedQuantity &q : others)
       root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);
     root["certificate"] = Json::of_certificates(*this);

@@ -3,6 +3,7 @@
 // formulas of strings.
 #include "scene_tests.h"
 
+#include <taut/output/spans.h>
 #include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
@@ -137,4 +138,87 @@ TEST(LineFigures, columns_of_sweeps_are_the_statistics)
     }
   EXPECT_EQ(n_compared, 12 + 6 * 9);
   EXPECT_GT(n_slackenings, 0.);
+}
+
+// Expected of a string between rigid supports: the moment of its loads as on a beam, over T. The
+// contact wire has no arms, so that it is lowest at the masts and nowhere below its chords.
+TEST(LineFigures, sags_of_spans_are_those_of_strings)
+{
+  const Said said = say(line + "Pantograph pantograph: -\n"
+                               "Catenary: Pantographs =; Number of spans = 3\n"
+                               "Time: End = 2e-3\nStatistics: Window =\n");
+  const nlohmann::json &contact = said.json.at("spans").at("contact"),
+                       &messenger = said.json.at("spans").at("messenger");
+  ASSERT_EQ(contact.size(), 3u);
+  ASSERT_EQ(messenger.size(), 3u);
+  const double g = 9.81;
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(value(messenger[i].at("from")), 40. * i, 1e-9);
+    EXPECT_NEAR(value(messenger[i].at("to")), 40. * (i + 1), 1e-9);
+  }
+  // Droppers carry 15, 10 and 15 m of the contact wire: 20 g * 20 - 15 g * 10 in the middle.
+  const double moment = .8 * g * 40. * 40. / 8. + 250. * g;
+  EXPECT_NEAR(value(messenger[1].at("sag")), 1e3 * moment / 12000., 1e-6);
+  EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
+}
+
+// A sample at a mast belongs to the span after it; the window cuts the span.
+TEST(LineFigures, forces_of_a_span_are_those_of_its_samples)
+{
+  taut::ContactRecord record;
+  record.position = {0., 1., 2., 3., 4., 5., 6.};
+  record.force = {7., 10., 20., 60., 30., 5., 9.};
+  record.mean_force = {7., 10., 20., 50., 30., 5., 9.};
+  taut::StatisticsParameters parameters;
+  const taut::SpanForce f = taut::SpanForce::of({1., 5.}, record, parameters);
+  EXPECT_EQ(f.n_samples, 4u);
+  EXPECT_NEAR(f.moments.mean, 30., 1e-12);
+  EXPECT_NEAR(f.moments.deviation, std::sqrt((400. + 100. + 900.) / 4.), 1e-12);
+  EXPECT_EQ(f.moments.minimum, 10.);
+  EXPECT_EQ(f.moments.maximum, 50.);
+  parameters.window = {2., 3.};
+  EXPECT_EQ(taut::SpanForce::of({1., 5.}, record, parameters).n_samples, 2u);
+  EXPECT_EQ(taut::SpanForce::of({5., 6.}, record, parameters).n_samples, 0u);
+}
+
+TEST(LineFigures, forces_of_spans_are_those_of_the_table)
+{
+  const Said said =
+      say(line, {"Statistics/Filter frequency=0", "Statistics/Window=", "Output/Interval=0"});
+  const nlohmann::json &spans = said.json.at("spans").at("contact");
+  ASSERT_EQ(spans.size(), 2u);
+  double n_slackenings = 0.;
+  for (const auto &[name, link] : said.json.at("links").items())
+    n_slackenings += value(link.at("slackenings"));
+  EXPECT_EQ(spans[0].at("slackenings").get<double>() + spans[1].at("slackenings").get<double>(),
+            n_slackenings);
+  EXPECT_GT(n_slackenings, 0.);
+  const std::vector<double> *place = nullptr, *force = nullptr;
+  for (const auto &[title, column] : said.sliding)
+  {
+    if (has(title, "position"))
+      place = &column;
+    if (has(title, "force"))
+      force = &column;
+  }
+  ASSERT_TRUE(place && force);
+  for (int i = 0; i < 2; ++i)
+  {
+    double n = 0., sum = 0., squares = 0., least = 1e9;
+    for (std::size_t k = 0; k < force->size(); ++k)
+      if ((*place)[k] > 40. * i - 1e-9 && (*place)[k] < 40. * (i + 1) - 1e-9)
+      {
+        n += 1.;
+        sum += (*force)[k];
+        squares += (*force)[k] * (*force)[k];
+        least = std::min(least, (*force)[k]);
+      }
+    const nlohmann::json &f = spans[i].at("contact_forces").at("pantograph");
+    EXPECT_EQ(f.at("samples").get<double>(), n);
+    EXPECT_NEAR(value(f.at("mean")), sum / n, 1e-8);
+    EXPECT_NEAR(value(f.at("standard_deviation")), std::sqrt(squares / n - sum * sum / n / n),
+                1e-6);
+    EXPECT_NEAR(value(f.at("minimum")), least, 1e-9);
+  }
 }

@@ -9,6 +9,7 @@
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/sliding_contacts.h>
+#include <taut/output/spans.h>
 
 #include <iosfwd>
 #include <string>
@@ -87,6 +88,7 @@ namespace taut
     {
       SlidingContact of;
       std::vector<double> places = {}; ///< position and height of each step, in turn [m]
+      std::size_t wire = ground; ///< whose positions count; none for a contact on another body
       bool has_height = false;
       std::vector<Term> foot = {};           ///< displacement of its `from` end along its direction
       std::vector<ContactRecord> wires = {}; ///< without positions
@@ -127,6 +129,7 @@ namespace taut
     ContactFigures figures(const Contact &contact) const;
     static void add_places(const Contact &contact, ContactRecord &record);
     ContactRecord sum(const Contact &contact) const;
+    ContactRecord judged(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
 
@@ -167,6 +170,7 @@ namespace taut
 
     StatisticsParameters parameters;
     std::vector<LineConstants> lines;
+    std::vector<SpannedWire> spanned;
     std::vector<Contact> contacts;
     std::vector<LinkQuantities> links;
     std::vector<ProbeQuantities> probes;
