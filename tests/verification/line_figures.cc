@@ -140,13 +140,15 @@ TEST(LineFigures, columns_of_sweeps_are_the_statistics)
   EXPECT_GT(n_slackenings, 0.);
 }
 
-// Expected of a string between rigid supports: the moment of its loads as on a beam, over T. The
-// contact wire has no arms, so that it is lowest at the masts and nowhere below its chords.
+// Expected of a string between rigid supports: the moment of its loads as on a beam, over T,
+// whatever the slope of the chord. The contact wire has no arms, so that it is lowest at the masts
+// and nowhere below its chords.
 TEST(LineFigures, sags_of_spans_are_those_of_strings)
 {
-  const Said said = say(line + "Pantograph pantograph: -\n"
-                               "Catenary: Pantographs =; Number of spans = 3\n"
-                               "Time: End = 2e-3\nStatistics: Window =\n");
+  const Said said =
+      say(line + "Pantograph pantograph: -\n"
+                 "Catenary: Pantographs =; Number of spans = 3; Encumbrance = 1.2, 1.2, 1.4, 1.2\n"
+                 "Time: End = 2e-3\nStatistics: Window =\n");
   const nlohmann::json &contact = said.json.at("spans").at("contact"),
                        &messenger = said.json.at("spans").at("messenger");
   ASSERT_EQ(contact.size(), 3u);
