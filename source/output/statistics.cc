@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/base/text.h>
+#include <taut/output/low_pass.h>
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut
 {
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
                          const Constraints &rows)
-      : parameters(parameters)
+      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene))
   {
     for (SlidingContact &contact : sliding_contacts(scene, rows))
     {
       contacts.push_back({std::move(contact)});
       contacts.back().wires.resize(contacts.back().of.links.size());
-      contacts.back().has_height = contacts.back().of.links[0] < scene.links.size();
+      const std::size_t first = contacts.back().of.links[0];
+      contacts.back().has_height = first < scene.links.size();
+      if (first < scene.links.size() && scene.links[first].to.kind == Attachment::Kind::wire)
+        contacts.back().wire = scene.links[first].to.index;
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
@@ -93,6 +99,8 @@ namespace taut
     times.push_back(state.time);
     measures = &step.measures;
     rows = &step.constraints;
+    if (is_start)
+      find_sags(step, spanned);
     record_contacts(step);
     record_links(step, dt);
     for (std::size_t i = 0; i < probes.size(); ++i)
@@ -150,6 +158,9 @@ namespace taut
           .largest_impulse &link.dropper;
     for (ProbeQuantities &probe : probes)
       archive &probe.largest &probe.smallest &probe.last;
+    for (SpannedWire &wire : spanned)
+      for (Span &span : wire.spans)
+        archive &span.sag;
     for (SupportQuantities &support : supports)
       archive &support.start &support.largest &support.smallest;
   }
@@ -184,6 +195,17 @@ namespace taut
     return result;
   }
 
+  /// The record with equal steps, low-passed as quantities() are.
+  ContactRecord Statistics::judged(const Contact &contact) const
+  {
+    ContactRecord record = sum(contact).at_equal_steps(times);
+    if (quantities(contact).is_filtered)
+      record.force =
+          low_pass(record.force, (times.back() - times.front()) / (record.force.size() - 1),
+                   parameters.filter_frequency);
+    return record;
+  }
+
   ContactFigures Statistics::figures(const Contact &contact) const
   {
     return ContactFigures::of(sum(contact), times, parameters);
@@ -200,6 +222,44 @@ namespace taut
     return ContactQuantities::of(wire, times, parameters);
   }
 
+  std::vector<Statistics::NamedQuantity> Statistics::named_figures(const Contact &contact) const
+  {
+    const std::string &name = contact.of.name;
+    const ContactFigures f = figures(contact);
+    std::vector<NamedQuantity> list;
+    for (const ContactFigures::Band &band : f.bands)
+      list.push_back({name, to_text("standard deviation ", band.from, " to ", band.to, " Hz"),
+                      band.is_resolved ? band.deviation : std::numeric_limits<double>::quiet_NaN(),
+                      "N"});
+    for (const ContactFigures::Losses &l : f.losses)
+    {
+      const std::string duration = to_text(1e3 * l.longer_than, " ms");
+      list.push_back({name, "losses over " + duration, static_cast<double>(l.number), "1"});
+      list.push_back({name, "share of losses over " + duration, l.share, "1"});
+    }
+    if (contact.has_height)
+      list.push_back({name, "height range", f.height_range, "m"});
+    return list;
+  }
+
+  std::vector<Statistics::NamedQuantity> Statistics::named(const LinkQuantities &f)
+  {
+    const std::string force = f.rotates ? "N m" : "N";
+    std::vector<NamedQuantity> list = {
+        {f.name, "open time", f.open_time, "s"},
+        {f.name, "closed time", f.closed_time, "s"},
+        {f.name, "largest force", f.largest_force, force},
+        {f.name, "impulse", f.impulse, force + " s"},
+        {f.name, "largest impulse", f.largest_impulse, force + " s"}};
+    if (f.is_dropper)
+      list.insert(list.end(),
+                  {{f.name, "smallest force", f.dropper.least, force},
+                   {f.name, "mean force", f.dropper.mean, force},
+                   {f.name, "standard deviation of the force", f.dropper.deviation(), force},
+                   {f.name, "slackenings", static_cast<double>(f.dropper.n_slackenings), "1"}});
+    return list;
+  }
+
   std::vector<Statistics::NamedQuantity> Statistics::named_quantities() const
   {
     std::vector<NamedQuantity> list;
@@ -207,11 +267,15 @@ namespace taut
     {
       const ContactQuantities f = quantities(contact);
       const Moments &m = f.filtered;
+      const double over_mean = m.mean > 0. ? m.deviation / m.mean : 0.;
       list.insert(list.end(), {{contact.of.name, "mean", m.mean, "N"},
                                {contact.of.name, "standard deviation", m.deviation, "N"},
                                {contact.of.name, "maximum", m.maximum, "N"},
                                {contact.of.name, "minimum", m.minimum, "N"},
-                               {contact.of.name, "contact loss", f.loss, "1"}});
+                               {contact.of.name, "contact loss", f.loss, "1"},
+                               {contact.of.name, "standard deviation over mean", over_mean, "1"}});
+      const std::vector<NamedQuantity> others = named_figures(contact);
+      list.insert(list.end(), others.begin(), others.end());
       for (std::size_t i = 0; contact.of.is_strip && i < contact.wires.size(); ++i)
       {
         const ContactQuantities share = quantities(contact, contact.wires[i]);
@@ -221,12 +285,8 @@ namespace taut
     }
     for (const LinkQuantities &f : links)
     {
-      const std::string force = f.rotates ? "N m" : "N";
-      list.insert(list.end(), {{f.name, "open time", f.open_time, "s"},
-                               {f.name, "closed time", f.closed_time, "s"},
-                               {f.name, "largest force", f.largest_force, force},
-                               {f.name, "impulse", f.impulse, force + " s"},
-                               {f.name, "largest impulse", f.largest_impulse, force + " s"}});
+      const std::vector<NamedQuantity> own = named(f);
+      list.insert(list.end(), own.begin(), own.end());
     }
     for (const ProbeQuantities &probe : probes)
     {

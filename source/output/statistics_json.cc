@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <map>
 
 namespace taut
 {
@@ -106,6 +107,65 @@ namespace taut
       entry["height_range"] = quantity(1e3 * f.height_range, "mm");
     }
 
+    static json of(const LineConstants &line)
+    {
+      json entry = {{"wire", line.wire},
+                    {"speed", quantity(line.speed, "m/s")},
+                    {"wave_speed", quantity(line.wave_speed, "m/s")},
+                    {"speed_over_wave_speed", quantity(line.speed / line.wave_speed, "1")},
+                    {"doppler_factor", quantity(line.doppler, "1")}};
+      if (line.reflection > 0.)
+      {
+        entry["reflection_at_droppers"] = quantity(line.reflection, "1");
+        entry["amplification"] = quantity(line.amplification, "1");
+      }
+      return entry;
+    }
+
+    /// By wire.
+    static json of_spans(const Statistics &all)
+    {
+      std::map<std::string, std::size_t> n_slackenings;
+      for (const LinkQuantities &link : all.links)
+        n_slackenings[link.name] = link.dropper.n_slackenings;
+      json result = json::object();
+      for (const SpannedWire &wire : all.spanned)
+      {
+        json &entries = result[wire.name] = json::array();
+        for (const Span &span : wire.spans)
+        {
+          std::size_t n = 0;
+          for (const std::string &dropper : span.droppers)
+            n += n_slackenings[dropper];
+          entries.push_back({{"from", quantity(span.from, "m")},
+                             {"to", quantity(span.to, "m")},
+                             {"sag", quantity(1e3 * span.sag, "mm")},
+                             {"slackenings", n}});
+        }
+        for (const Contact &contact : all.contacts)
+          if (contact.wire == wire.wire)
+            add_forces(all, contact, wire.spans, entries);
+      }
+      return result;
+    }
+
+    static void add_forces(const Statistics &all, const Contact &contact,
+                           const std::vector<Span> &spans, json &entries)
+    {
+      const ContactRecord record = all.judged(contact);
+      for (std::size_t i = 0; i < spans.size(); ++i)
+      {
+        const SpanForce f = SpanForce::of(spans[i], record, all.parameters);
+        if (f.n_samples > 0)
+          entries[i]["contact_forces"][contact.of.name] = {
+              {"samples", f.n_samples},
+              {"mean", quantity(f.moments.mean, "N")},
+              {"standard_deviation", quantity(f.moments.deviation, "N")},
+              {"maximum", quantity(f.moments.maximum, "N")},
+              {"minimum", quantity(f.moments.minimum, "N")}};
+      }
+    }
+
     static json shares(const Statistics &all, const Contact &contact)
     {
       json result = json::object();
@@ -158,6 +218,9 @@ namespace taut
         {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
         {"scheme", run.scheme},      {"step", time(run.step)},     {"end", time(run.end)},
         {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
+    json &of_lines = root["line_constants"] = json::object();
+    for (const LineConstants &line : lines)
+      of_lines[line.contact] = Json::of(line);
     json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
       of_contacts[contact.of.name] = Json::of(*this, contact);
@@ -167,17 +230,9 @@ namespace taut
     json &of_links = root["links"] = json::object();
     for (const LinkQuantities &link : links)
     {
-      const std::string unit = link.rotates ? "N m" : "N";
-      of_links[link.name] = {{"open_time", time(link.open_time)},
-                             {"largest_force", quantity(link.largest_force, unit)},
-                             {"impulse", quantity(link.impulse, unit + " s")},
-                             {"largest_impulse", quantity(link.largest_impulse, unit + " s")}};
-      if (link.is_dropper)
-        of_links[link.name].update(
-            {{"smallest_force", quantity(link.dropper.least, unit)},
-             {"mean_force", quantity(link.dropper.mean, unit)},
-             {"standard_deviation", quantity(link.dropper.deviation(), unit)},
-             {"slackenings", link.dropper.n_slackenings}});
+      json &entry = of_links[link.name] = json::object();
+      for (const NamedQuantity &q : named(link))
+        entry[identifier(q.quantity)] = quantity(q.value, q.unit);
     }
     json &of_supports = root["supports"] = json::object();
     for (const SupportQuantities &support : supports)
@@ -187,6 +242,7 @@ namespace taut
                                    {"largest", quantity(support.largest, unit)},
                                    {"smallest", quantity(support.smallest, unit)}};
     }
+    root["spans"] = Json::of_spans(*this);
     for (const NamedQuantity &q : others)
       root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);
     root["certificate"] = Json::of_certificates(*this);

@@ -43,9 +43,12 @@ namespace taut
     prm.add_parameter(
         "Quantity", quantity,
         "Of a sliding contact: 'mean', 'standard deviation', 'maximum', 'minimum', 'contact "
-        "loss', of the filtered force in the window of the statistics; of a wire of a strip 'mean "
-        "share', 'largest share'. Of another link: 'open "
-        "time', 'closed time', 'largest force', 'impulse'. Of a probe: 'largest', 'smallest', "
+        "loss', 'standard deviation over mean', of the filtered force in the window of the "
+        "statistics, 'standard deviation 0 to 2 Hz' (also 0 to 5, 5 to 20, 0 to 20), 'losses over "
+        "5 ms' and 'share of losses over 5 ms' (also 10, 20), 'height range'; of a wire of a strip "
+        "'mean share', 'largest share'. Of another link: 'open time', 'closed time', 'largest "
+        "force', 'impulse', 'largest impulse'; of a dropper also 'smallest force', 'mean force', "
+        "'standard deviation of the force', 'slackenings'. Of a probe: 'largest', 'smallest', "
         "'last'. Of each: 'history', the root mean square over the run of the difference to the "
         "reference, of force or displacement",
         Anything());

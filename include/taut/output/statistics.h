@@ -4,10 +4,12 @@
 
 #include <taut/output/contact_figures.h>
 #include <taut/output/contact_quantities.h>
+#include <taut/output/line_constants.h>
 #include <taut/output/link_force.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/sliding_contacts.h>
+#include <taut/output/spans.h>
 
 #include <iosfwd>
 #include <string>
@@ -86,6 +88,7 @@ namespace taut
     {
       SlidingContact of;
       std::vector<double> places = {}; ///< position and height of each step, in turn [m]
+      std::size_t wire = ground; ///< whose positions count; none for a contact on another body
       bool has_height = false;
       std::vector<Term> foot = {};           ///< displacement of its `from` end along its direction
       std::vector<ContactRecord> wires = {}; ///< without positions
@@ -126,8 +129,13 @@ namespace taut
     ContactFigures figures(const Contact &contact) const;
     static void add_places(const Contact &contact, ContactRecord &record);
     ContactRecord sum(const Contact &contact) const;
+    ContactRecord judged(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
+
+    /// What the file and named_quantities() have of an item.
+    std::vector<NamedQuantity> named_figures(const Contact &contact) const;
+    static std::vector<NamedQuantity> named(const LinkQuantities &link);
 
     /// A row of a table.
     struct Quantity
@@ -161,6 +169,8 @@ namespace taut
     void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;
+    std::vector<LineConstants> lines;
+    std::vector<SpannedWire> spanned;
     std::vector<Contact> contacts;
     std::vector<LinkQuantities> links;
     std::vector<ProbeQuantities> probes;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_spans_h
+#define taut_spans_h
+
+#include <taut/output/contact_quantities.h>
+#include <taut/scene/scene.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  struct StepView;
+
+  /// A part of a wire between two masts.
+  struct Span
+  {
+    double from = 0., to = 0.;              ///< s on the wire [m]
+    double sag = 0.;                        ///< at t = 0 [m], see find_sags()
+    std::vector<std::string> droppers = {}; ///< that hold this part of the wire, from `from` on
+  };
+
+  /// A wire with spans.
+  struct SpannedWire
+  {
+    std::size_t wire = 0; ///< of the scene
+    std::string name;
+    std::vector<Span> spans;
+  };
+
+  /**
+   * Spans of the wires at the ends of droppers and under sliding contacts, in the order of the
+   * scene. Masts of a wire are its transverse supports; of a wire that hangs on droppers the
+   * transverse supports of the wires above it, projected on it. Wires with fewer than two masts
+   * have no spans.
+   */
+  std::vector<SpannedWire> spanned_wires(const Scene &scene);
+
+  /// Sets the sags: the largest depth of the wire below the chord between its points at the two
+  /// masts, at four places of each element, or 0 above it. Called by all ranks together.
+  void find_sags(const StepView &step, std::vector<SpannedWire> &wires);
+
+  /// Moments of the samples of a contact force in a span and in the window; a sample at a
+  /// mast belongs to the span after it. Without samples all are 0.
+  struct SpanForce
+  {
+    Moments moments;
+    std::size_t n_samples = 0;
+
+    static SpanForce of(const Span &span, const ContactRecord &record,
+                        const StatisticsParameters &parameters);
+  };
+} // namespace taut
+
+#endif

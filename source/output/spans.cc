@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/observer.h>
+#include <taut/output/spans.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr double rounding = 1e-6;    ///< of places of masts [m]
+    constexpr unsigned int n_places = 4; ///< in an element
+
+    bool holds_wire(const Link &link)
+    {
+      return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
+             link.to.kind == Attachment::Kind::wire;
+    }
+
+    /// Places of the transverse supports of a wire, on it [m].
+    std::vector<double> supports_of(const Scene &scene, const std::size_t wire)
+    {
+      std::vector<double> places;
+      for (const Support &support : scene.supports)
+        if (support.wire == wire && support.motion == WireMotion::transverse)
+          places.insert(places.end(), support.positions.begin(), support.positions.end());
+      return places;
+    }
+
+    std::vector<double> masts_of(const Scene &scene, const std::size_t wire)
+    {
+      std::set<std::size_t> above;
+      for (const Link &link : scene.links)
+        if (holds_wire(link) && link.to.index == wire)
+          above.insert(link.from.index);
+      std::vector<double> places;
+      if (above.empty())
+        places = supports_of(scene, wire);
+      const Wire &own = scene.wires[wire];
+      for (const std::size_t other : above)
+        for (const double s : supports_of(scene, other))
+        {
+          const Coordinates way = add_scaled(scene.wires[other].at(s), -1., own.a);
+          const double place = dot(way, own.tangent());
+          if (place > -rounding && place < own.length() + rounding)
+            places.push_back(std::clamp(place, 0., own.length()));
+        }
+      std::sort(places.begin(), places.end());
+      places.erase(std::unique(places.begin(), places.end(),
+                               [](const double a, const double b) { return b - a < rounding; }),
+                   places.end());
+      return places;
+    }
+
+    bool is_in(const Span &span, const double place)
+    {
+      return place >= span.from - rounding && place < span.to - rounding;
+    }
+  } // namespace
+
+  std::vector<SpannedWire> spanned_wires(const Scene &scene)
+  {
+    std::set<std::size_t> wires;
+    for (const Link &link : scene.links)
+    {
+      if (holds_wire(link))
+        wires.insert({link.from.index, link.to.index});
+      else if (link.moving() && link.to.kind == Attachment::Kind::wire)
+        wires.insert(link.to.index);
+    }
+    std::vector<SpannedWire> result;
+    for (const std::size_t wire : wires)
+    {
+      SpannedWire found{wire, scene.wires[wire].name, {}};
+      const std::vector<double> masts = masts_of(scene, wire);
+      for (std::size_t i = 1; i < masts.size(); ++i)
+      {
+        found.spans.push_back({masts[i - 1], masts[i]});
+        for (const Link &link : scene.links)
+          if (holds_wire(link) && link.to.index == wire &&
+              is_in(found.spans.back(), link.to.position))
+            found.spans.back().droppers.push_back(link.name);
+      }
+      if (!found.spans.empty())
+        result.push_back(std::move(found));
+    }
+    return result;
+  }
+
+  void find_sags(const StepView &step, std::vector<SpannedWire> &wires)
+  {
+    for (SpannedWire &spanned : wires)
+    {
+      const double up = step.scene.wires[spanned.wire].normal().y < 0. ? -1. : 1.;
+      const std::vector<double> nodes = grid(step.scene, spanned.wire);
+      for (Span &span : spanned.spans)
+      {
+        std::vector<double> places = {span.from, span.to};
+        for (std::size_t i = 1; i < nodes.size(); ++i)
+          for (unsigned int k = 0; k < n_places; ++k)
+            if (const double s = nodes[i - 1] + (nodes[i] - nodes[i - 1]) * k / n_places;
+                s > span.from && s < span.to)
+              places.push_back(s);
+        std::vector<double> heights;
+        for (const double s : places)
+        {
+          std::vector<Term> terms;
+          step.structure.motion(spanned.wire, s, WireMotion::transverse, terms);
+          heights.push_back(
+              up * (evaluate(terms, step.reference.displacement) + evaluate(terms, step.state.U)));
+        }
+        step.structure.communicator().sum(heights);
+        span.sag = 0.;
+        for (std::size_t i = 2; i < places.size(); ++i)
+        {
+          const double part = (places[i] - span.from) / (span.to - span.from);
+          const double chord = heights[0] + part * (heights[1] - heights[0]);
+          span.sag = std::max(span.sag, chord - heights[i]);
+        }
+      }
+    }
+  }
+
+  SpanForce SpanForce::of(const Span &span, const ContactRecord &record,
+                          const StatisticsParameters &parameters)
+  {
+    std::vector<double> force, mean_force;
+    for (std::size_t i = 0; i < record.force.size(); ++i)
+      if (is_in(span, record.position[i]) && parameters.is_in_window(record.position[i]))
+      {
+        force.push_back(record.force[i]);
+        mean_force.push_back(record.mean_force[i]);
+      }
+    SpanForce result = {Moments::of(force), force.size()};
+    // Peaks of impulses depend on the step, so that peaks are those of mean forces.
+    result.moments.maximum = Moments::of(mean_force).maximum;
+    return result;
+  }
+} // namespace taut

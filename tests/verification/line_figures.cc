@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: figures of lines are the same wherever a run says them. Source: one against the other,
+// formulas of strings.
+#include "scene_tests.h"
+
+#include <taut/output/spans.h>
+#include <taut/study/sweep.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <regex>
+
+using namespace verification;
+
+namespace
+{
+  /// A pantograph runs under two spans of strings with droppers, and leaves the wire at times.
+  const std::string line = R"(Generator = catenary
+Start = equilibrium
+Catenary: Number of spans = 2; Span length = 40; Pantographs = pantograph
+Catenary/Contact wire: Model = string; Mass per length = 1; Tension = 10000; Element size = 1
+Catenary/Messenger wire: Model = string; Mass per length = 0.8; Tension = 12000; Element size = 1
+Catenary/Supports: Arm mass = 0
+Catenary/Droppers: Positions = 10, 20, 30
+Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 20; Static force = 60; Start = 10; Speed = 180; Contact stiffness = 50000
+Time: Step = 2e-3; End = 1.2; Scheme = Newmark
+Statistics: Window = 20, 65
+)";
+
+  struct Said
+  {
+    nlohmann::json json;
+    std::string log;
+    std::map<std::string, std::vector<double>> sliding;
+  };
+
+  Said say(const std::string &scene, const Overrides &overrides = {})
+  {
+    Session session(scene, overrides);
+    session.run();
+    Said said;
+    std::ifstream(session.folder() + "/statistics.json") >> said.json;
+    said.log = session.log();
+    said.sliding = read_table(session.folder() + "/sliding.csv");
+    return said;
+  }
+
+  double value(const nlohmann::json &quantity)
+  {
+    return quantity.at("value").get<double>();
+  }
+} // namespace
+
+TEST(LineFigures, constants_of_lines_are_those_of_the_log)
+{
+  const Said said = say(line, {"Time/End=0.01", "Statistics/Window="});
+  const nlohmann::json &constants = said.json.at("line_constants").at("pantograph");
+  EXPECT_EQ(constants.at("wire"), "contact");
+  EXPECT_NEAR(value(constants.at("wave_speed")), 100., 1e-9);
+  EXPECT_NEAR(value(constants.at("speed_over_wave_speed")), .5, 1e-12);
+  EXPECT_NEAR(value(constants.at("doppler_factor")), 1. / 3., 1e-12);
+  const std::regex text(R"('pantograph' at (\S+) m/s under 'contact', whose waves have (\S+) m/s: )"
+                        R"(v/c (\S+), Doppler factor (\S+), reflection at droppers (\S+), )"
+                        R"(amplification (\S+))");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(said.log, found, text)) << said.log;
+  const char *const names[] = {"speed",
+                               "wave_speed",
+                               "speed_over_wave_speed",
+                               "doppler_factor",
+                               "reflection_at_droppers",
+                               "amplification"};
+  for (int i = 0; i < 6; ++i)
+  {
+    const double in_log = std::stod(found[i + 1]);
+    EXPECT_NEAR(value(constants.at(names[i])), in_log, 6e-3 * in_log) << names[i];
+  }
+}
+
+TEST(LineFigures, columns_of_sweeps_are_the_statistics)
+{
+  Session session(line);
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const std::string file = session.folder() + "/scene.prm";
+  {
+    std::ofstream text(file);
+    session.parameters().print(text);
+  }
+  std::ostringstream log;
+  taut::Sweep sweep(file,
+                    {"Sweep/Parameters=step", "Sweep/Parameter step/Entries=Time/Step",
+                     "Sweep/Parameter step/Values=2e-3", "Sweep/Folder=" + session.folder() + "/s"},
+                    taut::Communicator(), log);
+  sweep.run();
+  std::ifstream table(session.folder() + "/s/sweep.csv");
+  std::string titles, numbers;
+  std::getline(table, titles);
+  std::getline(table, numbers);
+  std::map<std::string, double> swept;
+  const std::vector<std::string> heads = cells_of(titles), cells = cells_of(numbers);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    swept[heads[i]] = std::stod(cells[i]);
+  int n_compared = 0;
+  const auto compare = [&](const std::string &title, const double expected)
+  {
+    ASSERT_EQ(swept.count(title), 1u) << title;
+    EXPECT_NEAR(swept.at(title), expected, 1e-12 * std::fabs(expected)) << title;
+    ++n_compared;
+  };
+  const nlohmann::json &force = said.at("sliding_contacts").at("pantograph");
+  compare("pantograph: standard deviation over mean [1]",
+          value(force.at("filtered").at("standard_deviation_over_mean")));
+  compare("pantograph: height range [m]", 1e-3 * value(force.at("height_range")));
+  const char *const bands[] = {"0 to 2", "0 to 5", "5 to 20", "0 to 20"};
+  for (int i = 0; i < 4; ++i)
+    compare(std::string("pantograph: standard deviation ") + bands[i] + " Hz [N]",
+            value(force.at("bands").at(i).at("standard_deviation")));
+  const char *const durations[] = {"5", "10", "20"};
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::string over = std::string("losses over ") + durations[i] + " ms [1]";
+    const nlohmann::json &losses = force.at("losses").at(i);
+    EXPECT_GT(losses.at("number"), 0);
+    compare("pantograph: " + over, losses.at("number").get<double>());
+    compare("pantograph: share of " + over, 1e-2 * value(losses.at("share")));
+  }
+  double n_slackenings = 0.;
+  for (const auto &[name, link] : said.at("links").items())
+    for (const auto &[key, quantity] : link.items())
+    {
+      compare(name + ": " + std::regex_replace(key, std::regex("_"), " ") + " [" +
+                  quantity.at("unit").get<std::string>() + "]",
+              value(quantity));
+      n_slackenings += key == "slackenings" ? value(quantity) : 0.;
+    }
+  EXPECT_EQ(n_compared, 12 + 6 * 9);
+  EXPECT_GT(n_slackenings, 0.);
+}
+
+// Expected of a string between rigid supports: the moment of its loads as on a beam, over T,
+// whatever the slope of the chord. The contact wire has no arms, so that it is lowest at the masts
+// and nowhere below its chords.
+TEST(LineFigures, sags_of_spans_are_those_of_strings)
+{
+  const Said said =
+      say(line + "Pantograph pantograph: -\n"
+                 "Catenary: Pantographs =; Number of spans = 3; Encumbrance = 1.2, 1.2, 1.4, 1.2\n"
+                 "Time: End = 2e-3\nStatistics: Window =\n");
+  const nlohmann::json &contact = said.json.at("spans").at("contact"),
+                       &messenger = said.json.at("spans").at("messenger");
+  ASSERT_EQ(contact.size(), 3u);
+  ASSERT_EQ(messenger.size(), 3u);
+  const double g = 9.81;
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(value(messenger[i].at("from")), 40. * i, 1e-9);
+    EXPECT_NEAR(value(messenger[i].at("to")), 40. * (i + 1), 1e-9);
+  }
+  // Droppers carry 15, 10 and 15 m of the contact wire: 20 g * 20 - 15 g * 10 in the middle.
+  const double moment = .8 * g * 40. * 40. / 8. + 250. * g;
+  EXPECT_NEAR(value(messenger[1].at("sag")), 1e3 * moment / 12000., 1e-6);
+  EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
+}
+
+// A sample at a mast belongs to the span after it; the window cuts the span.
+TEST(LineFigures, forces_of_a_span_are_those_of_its_samples)
+{
+  taut::ContactRecord record;
+  record.position = {0., 1., 2., 3., 4., 5., 6.};
+  record.force = {7., 10., 20., 60., 30., 5., 9.};
+  record.mean_force = {7., 10., 20., 50., 30., 5., 9.};
+  taut::StatisticsParameters parameters;
+  const taut::SpanForce f = taut::SpanForce::of({1., 5.}, record, parameters);
+  EXPECT_EQ(f.n_samples, 4u);
+  EXPECT_NEAR(f.moments.mean, 30., 1e-12);
+  EXPECT_NEAR(f.moments.deviation, std::sqrt((400. + 100. + 900.) / 4.), 1e-12);
+  EXPECT_EQ(f.moments.minimum, 10.);
+  EXPECT_EQ(f.moments.maximum, 50.);
+  parameters.window = {2., 3.};
+  EXPECT_EQ(taut::SpanForce::of({1., 5.}, record, parameters).n_samples, 2u);
+  EXPECT_EQ(taut::SpanForce::of({5., 6.}, record, parameters).n_samples, 0u);
+}
+
+TEST(LineFigures, forces_of_spans_are_those_of_the_table)
+{
+  const Said said =
+      say(line, {"Statistics/Filter frequency=0", "Statistics/Window=", "Output/Interval=0"});
+  const nlohmann::json &spans = said.json.at("spans").at("contact");
+  ASSERT_EQ(spans.size(), 2u);
+  double n_slackenings = 0.;
+  for (const auto &[name, link] : said.json.at("links").items())
+    n_slackenings += value(link.at("slackenings"));
+  EXPECT_EQ(spans[0].at("slackenings").get<double>() + spans[1].at("slackenings").get<double>(),
+            n_slackenings);
+  EXPECT_GT(n_slackenings, 0.);
+  const std::vector<double> *place = nullptr, *force = nullptr;
+  for (const auto &[title, column] : said.sliding)
+  {
+    if (has(title, "position"))
+      place = &column;
+    if (has(title, "force"))
+      force = &column;
+  }
+  ASSERT_TRUE(place && force);
+  for (int i = 0; i < 2; ++i)
+  {
+    double n = 0., sum = 0., squares = 0., least = 1e9;
+    for (std::size_t k = 0; k < force->size(); ++k)
+      if ((*place)[k] > 40. * i - 1e-9 && (*place)[k] < 40. * (i + 1) - 1e-9)
+      {
+        n += 1.;
+        sum += (*force)[k];
+        squares += (*force)[k] * (*force)[k];
+        least = std::min(least, (*force)[k]);
+      }
+    const nlohmann::json &f = spans[i].at("contact_forces").at("pantograph");
+    EXPECT_EQ(f.at("samples").get<double>(), n);
+    EXPECT_NEAR(value(f.at("mean")), sum / n, 1e-8);
+    EXPECT_NEAR(value(f.at("standard_deviation")), std::sqrt(squares / n - sum * sum / n / n),
+                1e-6);
+    EXPECT_NEAR(value(f.at("minimum")), least, 1e-9);
+  }
+}
