@@ -84,6 +84,8 @@ namespace taut
       evaluated.erase("contact_loss");
       if (f.are_judged())
         entry[f.is_filtered ? "filtered" : "raw"] = evaluated;
+      if (const std::string source = all.parameters.source_of_largest_mean(); !source.empty())
+        entry["largest_mean_force"] = {{"supply", all.parameters.supply}, {"source", source}};
       add_figures(all.figures(contact), entry);
       if (contact.of.is_strip)
         entry["wires"] = shares(all, contact);

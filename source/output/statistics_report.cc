@@ -142,6 +142,8 @@ namespace taut
           << rows[i].value << ' ' << std::left << std::setw(3) << rows[i].unit << std::right
           << std::setw(12) << (i < raw.size() ? fixed(raw[i].value) : "")
           << comparison(rows[i].value, rows[i].expected, f.are_judged()) << '\n';
+    if (const std::string source = parameters.source_of_largest_mean(); !source.empty())
+      out << "  Largest mean at this speed, " << parameters.supply << ": " << source << '\n';
     print_figures(contact, f.loss, out);
     if (contact.of.is_strip)
       print_shares(contact, out);

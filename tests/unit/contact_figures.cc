@@ -180,3 +180,27 @@ TEST(ContactFigures, limits_of_the_mean_force_are_those_of_the_speed)
   parameters.least_mean = {1e-3};
   EXPECT_THROW(parameters.check(), EntryError);
 }
+
+// Expected: the formulas of the supplies by hand, in N at km/h; an own curve goes before them.
+TEST(ContactFigures, supplies_have_their_largest_mean_force)
+{
+  StatisticsParameters parameters;
+  const auto largest = [&](const double v) { return parameters.mean_force_range(v / 3.6).at(1); };
+  EXPECT_EQ(parameters.source_of_largest_mean(), "");
+  parameters.supply = "AC";
+  EXPECT_NEAR(largest(160.), 102.032, 1e-9);
+  EXPECT_NEAR(largest(200.), 108.8, 1e-9);
+  EXPECT_NEAR(largest(300.), 157.3, 1e-9);
+  EXPECT_NE(parameters.source_of_largest_mean().find("check against your edition"),
+            std::string::npos);
+  for (const auto &[supply, force] : {std::pair("DC 3 kV", 197.3), {"DC 1.5 kV", 227.3}})
+  {
+    parameters.supply = supply;
+    EXPECT_NEAR(largest(300.), force, 1e-9);
+    EXPECT_TRUE(parameters.mean_force_range(160. / 3.6).empty());
+    EXPECT_TRUE(parameters.mean_force_range(199.9 / 3.6).empty());
+  }
+  parameters.largest_mean = {0., 99.};
+  EXPECT_NEAR(largest(300.), 99., 1e-9);
+  EXPECT_EQ(parameters.source_of_largest_mean(), "");
+}

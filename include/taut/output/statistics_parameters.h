@@ -25,6 +25,10 @@ namespace taut
     /// speed others, a, b, v1, c, d; empty: none.
     std::vector<double> least_mean, largest_mean;
 
+    /// "none", or "AC", "DC 3 kV", "DC 1.5 kV": the largest mean force where `largest_mean` is
+    /// empty.
+    std::string supply = "none";
+
     std::vector<std::string> tables; ///< to write: "histogram", "spectrum", "cycles"
     double class_width = 10.;        ///< of the histogram [N]
 
@@ -39,7 +43,11 @@ namespace taut
 
     bool has_table(const std::string &name) const;
 
-    /// Least and largest mean force at a speed [m/s], infinite without a limit; empty without both.
+    /// Where the largest mean force comes from if the supply says it; else empty.
+    std::string source_of_largest_mean() const;
+
+    /// Least and largest mean force at a speed [m/s], infinite without a limit; empty if
+    /// neither limits it.
     std::vector<double> mean_force_range(double speed) const;
 
     /// Throws an EntryError if no sliding contact enters the window before @p end_time [s].
