@@ -116,6 +116,23 @@ namespace taut
     prm.leave_subsection();
   }
 
+  void LineMidPointItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mid-point ropes");
+    prm.add_parameter("Pull", pull,
+                      "Horizontal part of the tension of each rope at rest; the contact wire has "
+                      "that much less tension between their clamps [N]",
+                      not_negative());
+    prm.add_parameter("Axial stiffness", axial_stiffness, "EA of each rope [N]", not_negative());
+    prm.add_parameter("Mass per length", mass_per_length,
+                      "Half of the mass of a rope goes to each wire [kg/m]", not_negative());
+    prm.add_parameter("Messenger distance", messenger_distance,
+                      "Between the clamps of the two ropes on the messenger wire, with the mast in "
+                      "the middle; 0: both at the mast [m]",
+                      not_negative());
+    prm.leave_subsection();
+  }
+
   void LineMassItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter(

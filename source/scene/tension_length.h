@@ -39,6 +39,9 @@ namespace taut
     void add_stitch_wires();
     void add_droppers();
 
+    /// Two ropes at each mid-point, which pull the messenger wire and each contact wire together.
+    void add_mid_points();
+
     const std::vector<std::size_t> &contact_wires() const { return contacts; }
     const LineLayout &layout() const { return line; }
     double begin() const { return line.begin; }
@@ -56,6 +59,7 @@ namespace taut
                      std::size_t contact);
     void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger);
     void check_droppers() const;
+    void check_mid_points() const;
     std::string named(const std::string &what) const;
 
     const LineItems &items;

@@ -22,8 +22,8 @@ namespace taut
     {
     public:
       /// Prepared up to @p end [s]; 0: nothing is stored.
-      FormulaTravel(Expression formula, const double units, const double end = 0.)
-          : formula(std::move(formula)), units(units)
+      FormulaTravel(Expression speeds, const double units, const double end = 0.)
+          : speeds(std::move(speeds)), units(units)
       {
         cells.push_back({0., 0.});
         if (!(end > 0.))
@@ -48,18 +48,24 @@ namespace taut
         return cell.way + (is_stored ? integral(cell.time, t) : outside(cell.time, t));
       }
 
-      double speed(const double t) const override { return formula(0., t) / units; }
+      double speed(const double t) const override { return speeds(0., t) / units; }
 
       std::string text() const override
       {
-        return formula.content() + (units == 1. ? "" : to_text(" / ", units));
+        return speeds.content() + (units == 1. ? "" : to_text(" / ", units));
+      }
+
+      std::string formula() const override
+      {
+        return units == 1. ? speeds.formula()
+                           : to_text(std::setprecision(17), "(", speeds.formula(), ")/", units);
       }
 
       std::shared_ptr<const Travel> until(const double end) const override
       {
         if (end == cells.back().time)
           return shared_from_this();
-        return std::make_shared<FormulaTravel>(formula, units, end);
+        return std::make_shared<FormulaTravel>(speeds, units, end);
       }
 
       TravelRange range() const override { return reached; }
@@ -160,7 +166,7 @@ namespace taut
         return a;
       }
 
-      const Expression formula;
+      const Expression speeds;
       const double units; ///< that are 1 m/s
       std::vector<Cell> cells;
       TravelRange reached;
