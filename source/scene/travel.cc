@@ -50,16 +50,8 @@ namespace taut
 
       double speed(const double t) const override { return speeds(0., t) / units; }
 
-      std::string text() const override
-      {
-        return speeds.content() + (units == 1. ? "" : to_text(" / ", units));
-      }
-
-      std::string formula() const override
-      {
-        return units == 1. ? speeds.formula()
-                           : to_text(std::setprecision(17), "(", speeds.formula(), ")/", units);
-      }
+      std::string text() const override { return in_metres_per_second(speeds.content()); }
+      std::string formula() const override { return in_metres_per_second(speeds.formula()); }
 
       std::shared_ptr<const Travel> until(const double end) const override
       {
@@ -81,6 +73,11 @@ namespace taut
       {
         double time, way; ///< [s, m]
       };
+
+      std::string in_metres_per_second(const std::string &speed) const
+      {
+        return units == 1. ? speed : to_text("(", speed, ")/", units);
+      }
 
       double integral(const double a, const double b) const
       {
