@@ -42,6 +42,9 @@ namespace taut
     double messenger_damping = 0.;
     std::string arm_kind = "point mass";
     double arm_mass = 1., arm_stiffness = 0., arm_damping = 0.;
+    double arm_reach = 1., arm_rise = .2; ///< of a rigid body
+
+    bool has_rigid_arms() const { return arm_kind == "rigid body"; }
     void declare(dealii::ParameterHandler &prm);
   };
 

@@ -132,6 +132,15 @@ TEST(WrittenNetwork, speeds_in_time_and_mid_points_run_bit_by_bit)
                   5);
 }
 
+TEST(WrittenNetwork, arms_that_are_rigid_bodies_run_bit_by_bit)
+{
+  expect_same_run("en50318_in_space",
+                  Overrides{"Catenary.Supports.Arm kind=rigid body",
+                            "Catenary.Supports.Arm reach=1.1", "Time.Scheme=Moreau-Jean"} +
+                      short_run,
+                  5);
+}
+
 TEST(WrittenNetwork, laws_by_formula_run_bit_by_bit)
 {
   expect_same_run("oscillator_with_stop",
