@@ -3,6 +3,7 @@
 #include "matrix_free_schur_complement.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/substructure/constrained_body.h>
 
 namespace taut
 {
@@ -54,6 +55,16 @@ namespace taut
       return totals[0] == 0. && 2. * n * n <= most_stored_numbers * totals[1];
     }
 
+    /// Whether a body of any rank has conditions inside, such as a rigid body, which the
+    /// preconditioners of the matrix-free form do not know.
+    bool has_conditions_inside(const Structure &structure)
+    {
+      bool result = false;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        result = result || dynamic_cast<const ConstrainedBody *>(&structure[k]);
+      return structure.communicator().any(result);
+    }
+
     /// The form that suits the constraints and the decay of their columns, known after
     /// factorisation.
     class AutomaticSchurComplement : public SchurComplement
@@ -100,7 +111,8 @@ namespace taut
           return "condensed";
         if (!solvers.is_generalised_inverse() && solvers.has_rigid_body_modes())
           return "assembled sparse";
-        return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers
+        return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers ||
+                       has_conditions_inside(solvers.structure())
                    ? "assembled sparse"
                    : "matrix-free";
       }

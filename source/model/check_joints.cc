@@ -207,7 +207,12 @@ namespace taut
       const bool are_points = is_point(link.from) && is_point(link.to);
       const Coordinates from = bodies.position(scene, link.from),
                         to = bodies.position(scene, link.to);
-      const double distance = norm(to - from),
+      // What the gaps of its joints do not say.
+      Coordinates between = to - from;
+      for (std::size_t k = i; k < scene.links.size() && are_one_ball_joint(scene.links[k], link);
+           ++k)
+        between = add_scaled(between, -scene.links[k].gap, scene.links[k].direction);
+      const double distance = norm(between),
                    least = are_points ? written_alike * std::max(norm(from), norm(to))
                                       : same_place * std::min(length_of(scene, bodies, link.from),
                                                               length_of(scene, bodies, link.to));

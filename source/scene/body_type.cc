@@ -15,6 +15,18 @@ namespace taut
     throw EntryError(setting.origin, "a body of this type shows no surface to contacts");
   }
 
+  CustomBody make_body(const std::string &name, const std::string &origin,
+                       const std::string &type_name,
+                       const std::vector<std::pair<std::string, std::string>> &entries)
+  {
+    const std::shared_ptr<BodyType> type = Registry<BodyType>::instance().create(type_name);
+    dealii::ParameterHandler prm;
+    type->declare_parameters(prm);
+    for (const auto &[entry, value] : entries)
+      prm.set(entry, value);
+    return {name, origin, type_name, type, entries};
+  }
+
   void BodyParameters::declare_names(dealii::ParameterHandler &prm)
   {
     check_item_names(names, "Bodies");
@@ -72,7 +84,7 @@ namespace taut
   {
     std::vector<CustomBody> result;
     for (std::size_t i = 0; i < names.size(); ++i)
-      result.push_back({names[i], title(i), type_names[i], types[i]});
+      result.push_back({names[i], title(i), type_names[i], types[i], {}});
     return result;
   }
 } // namespace taut

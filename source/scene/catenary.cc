@@ -106,6 +106,7 @@ namespace taut
     items.stitch.declare(prm, "Stitch wires", false);
     items.supports.declare(prm);
     items.droppers.declare(prm);
+    items.mid_point.declare(prm);
     items.masses.declare_parameters(prm);
     if (tension_lengths.names.empty())
       geometry.declare(prm);
@@ -349,6 +350,7 @@ namespace taut
         continue;
       part.add_stitch_wires();
       part.add_droppers();
+      part.add_mid_points();
     }
     for (std::size_t i = 0; i < pantographs.size(); ++i)
       add_pantograph(pantographs[i], pantograph_items[i], line, scene);

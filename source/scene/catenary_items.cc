@@ -91,11 +91,17 @@ namespace taut
         "Arm kind", arm_kind,
         "Steady arm at each inner mast. 'point mass': a mass on the contact wire, whose weight the "
         "arm carries. 'hinged': a uniform bar on a hinge at the mast and clamped to the wire; it "
-        "moves "
-        "as a lever, so that a third of its mass moves with the wire, and the wire carries half of "
-        "its weight",
-        Selection("point mass|hinged"));
+        "moves as a lever, so that a third of its mass moves with the wire, and the wire carries "
+        "half of its weight. 'rigid body': this bar in space, which turns about an axis along the "
+        "line and holds the wire aside by its tension",
+        Selection("point mass|hinged|rigid body"));
     prm.add_parameter("Arm mass", arm_mass, "[kg]", not_negative());
+    prm.add_parameter("Arm reach", arm_reach,
+                      "Of a rigid body: distance of its hinge from the clamp, aside to where it "
+                      "pulls the wire [m]",
+                      not_negative());
+    prm.add_parameter("Arm rise", arm_rise,
+                      "Of a rigid body: height of its hinge over the clamp [m]", Double());
     prm.add_parameter("Arm stiffness", arm_stiffness, "Vertical [N/m]", not_negative());
     prm.add_parameter("Arm damping", arm_damping, "Vertical [N s/m]", not_negative());
     prm.leave_subsection();
@@ -113,6 +119,23 @@ namespace taut
                       "Half of a dropper's mass goes to each wire [kg/m]", not_negative());
     prm.add_parameter("Messenger clamp mass", messenger_clamp_mass, "[kg]", not_negative());
     prm.add_parameter("Contact clamp mass", contact_clamp_mass, "[kg]", not_negative());
+    prm.leave_subsection();
+  }
+
+  void LineMidPointItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mid-point ropes");
+    prm.add_parameter("Pull", pull,
+                      "Horizontal part of the tension of each rope at rest; the contact wire has "
+                      "that much less tension between their clamps [N]",
+                      not_negative());
+    prm.add_parameter("Axial stiffness", axial_stiffness, "EA of each rope [N]", not_negative());
+    prm.add_parameter("Mass per length", mass_per_length,
+                      "Half of the mass of a rope goes to each wire [kg/m]", not_negative());
+    prm.add_parameter("Messenger distance", messenger_distance,
+                      "Between the clamps of the two ropes on the messenger wire, with the mast in "
+                      "the middle; 0: both at the mast [m]",
+                      not_negative());
     prm.leave_subsection();
   }
 

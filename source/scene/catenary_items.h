@@ -42,6 +42,9 @@ namespace taut
     double messenger_damping = 0.;
     std::string arm_kind = "point mass";
     double arm_mass = 1., arm_stiffness = 0., arm_damping = 0.;
+    double arm_reach = 1., arm_rise = .2; ///< of a rigid body
+
+    bool has_rigid_arms() const { return arm_kind == "rigid body"; }
     void declare(dealii::ParameterHandler &prm);
   };
 
@@ -62,6 +65,13 @@ namespace taut
     void declare(dealii::ParameterHandler &prm);
   };
 
+  /// The two ropes from the messenger wire to a contact wire at a mid-point.
+  struct LineMidPointItem
+  {
+    double pull = 0., axial_stiffness = 0., mass_per_length = 0., messenger_distance = 0.;
+    void declare(dealii::ParameterHandler &prm);
+  };
+
   /// All that the tension lengths of an overhead line share.
   struct LineItems
   {
@@ -72,6 +82,7 @@ namespace taut
         messenger{"beam", 1.07, 16000., 131.7, .5}, stitch{"beam", .34, 3500., 0., .5};
     LineSupportsItem supports;
     LineDropperItem droppers;
+    LineMidPointItem mid_point;
     NamedItems<LineMassItem> masses{"Catenary", "Point masses", "Point mass",
                                     "masses on the wires, e.g. insulators and clamps"};
     bool lateral = false; ///< as an entry; see is_in_space

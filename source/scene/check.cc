@@ -265,6 +265,18 @@ namespace taut
                "': the one before it is between the same two points; remove one of the positions");
     }
 
+    void check_pull(const Link &link, const std::string &what)
+    {
+      if (!link.form.find_length)
+        fail(link, "Pull", what,
+             "the length of the rope follows from it; set 'Find length = true'");
+      if (link.law)
+        fail(link, "Law", what, "a rope with a Pull has a Stiffness or an Axial stiffness");
+      if (link.form.prescribed_displacement != 0.)
+        fail(link, "Prescribed displacement", what,
+             "the length follows from the Pull or from the height; leave one of them out");
+    }
+
     void check_links(const Scene &scene, const double end_time)
     {
       check_repeated(scene);
@@ -289,6 +301,8 @@ namespace taut
             (link.kind != LinkKind::dropper || link.from.kind == Attachment::Kind::ground ||
              link.to.kind == Attachment::Kind::ground))
           fail(link, "Find length", what, "it is for a dropper between two bodies");
+        if (link.form.pull > 0.)
+          check_pull(link, what);
         if (link.form.find_length && link.form.mass_per_length > 0. &&
             (link.from.kind == Attachment::Kind::body || link.to.kind == Attachment::Kind::body))
           fail(link, "Mass per length", what,

@@ -176,6 +176,7 @@ namespace taut
         of.finite(link.form.prescribed_displacement, "Prescribed displacement");
         of.not_negative(link.form.axial_stiffness, "Axial stiffness");
         of.not_negative(link.form.mass_per_length, "Mass per length");
+        of.not_negative(link.form.pull, "Pull");
         of.not_negative(link.length, "length");
         of.finite(link.sideways.direction, "sideways");
         of.not_negative(link.sideways.stiffness, "sideways stiffness");

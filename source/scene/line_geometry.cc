@@ -157,7 +157,8 @@ namespace taut
         "entries "
         "of this geometry. Columns: 'span', the length to the next mast (the last has none); and, "
         "if "
-        "wanted, 'height', 'encumbrance', 'stagger', 'messenger stagger', 'stitch length', and of "
+        "wanted, 'height', 'encumbrance', 'stagger', 'messenger stagger', 'stitch length', "
+        "'mid-point', and of "
         "the droppers of the span, with spaces between them, 'droppers' (positions), 'pre-sag', "
         "'lengths'. Lengths in m",
         Anything());
@@ -185,6 +186,11 @@ namespace taut
         "Length of the stitch wire; one for all inner masts, or at each mast with both "
         "ends; 0: none [m]",
         List(not_negative(), 1));
+    prm.add_parameter(
+        "Mid-points", mid_points,
+        "Where the line is anchored in its middle: at each mast with both ends, the distance "
+        "between the clamps of the two ropes on the contact wire; 0: no mid-point [m]",
+        List(not_negative(), 1));
     declare_wires(prm);
     declare_droppers(prm);
   }
@@ -204,7 +210,8 @@ namespace taut
     if (!(result.length() <= longest))
       throw EntryError(entry, "the line would be " + to_text(result.length()) +
                                   " m long; at most 1e9 m are possible");
-    result.masts.front().stitch_length = result.masts.back().stitch_length = 0.;
+    for (LineMast *const end : {&result.masts.front(), &result.masts.back()})
+      end->stitch_length = end->mid_point = 0.;
     return result;
   }
 
@@ -215,6 +222,7 @@ namespace taut
     const std::vector<double> encumbrance = at_masts(encumbrances, n + 1, section + "/Encumbrance"),
                               height = at_masts(heights, n + 1, section + "/Heights"),
                               stitch = at_masts(stitch_lengths, n + 1, section + "/Stitch lengths"),
+                              mid_point = at_masts(mid_points, n + 1, section + "/Mid-points"),
                               contact = staggers(contact_stagger, n + 1,
                                                  section + "/Contact wire/Stagger"),
                               messenger = staggers(messenger_stagger, n + 1,
@@ -223,7 +231,7 @@ namespace taut
     for (std::size_t i = 0; i <= n; ++i)
     {
       result.masts.push_back({span_lengths.empty() ? i * span_length : x, height[i], encumbrance[i],
-                              contact[i], messenger[i], stitch[i]});
+                              contact[i], messenger[i], stitch[i], mid_point[i]});
       if (i < span_lengths.size())
         x += span_lengths[i];
     }
@@ -257,8 +265,8 @@ namespace taut
     const std::string entry = section + "/Line";
     const CsvTable file(table, entry);
     const std::set<std::string> known = {
-        "span",          "height",   "encumbrance", "stagger", "messenger stagger",
-        "stitch length", "droppers", "pre-sag",     "lengths"};
+        "span",          "height",    "encumbrance", "stagger", "messenger stagger",
+        "stitch length", "mid-point", "droppers",    "pre-sag", "lengths"};
     for (const std::string &column : file.columns())
       if (known.count(column) == 0)
         throw EntryError(entry, "file '" + table + "': there is no column '" + column + "'" +
@@ -276,7 +284,7 @@ namespace taut
       { return file.text(i, column).empty() ? otherwise : file.number(i, column); };
       result.masts.push_back({x, value("height", 0.), value("encumbrance", encumbrances.front()),
                               value("stagger", 0.), value("messenger stagger", 0.),
-                              value("stitch length", 0.)});
+                              value("stitch length", 0.), value("mid-point", 0.)});
       const std::vector<double> places = file.numbers(i, "droppers"),
                                 sags = file.numbers(i, "pre-sag"),
                                 given = file.numbers(i, "lengths");

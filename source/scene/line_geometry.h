@@ -21,6 +21,7 @@ namespace taut
     double contact_z = 0.;     ///< stagger of the contact wire
     double messenger_z = 0.;   ///< stagger of the messenger wire
     double stitch_length = 0.; ///< 0: no stitch wire
+    double mid_point = 0.;     ///< between the clamps of its ropes on the contact wire; 0: none
   };
 
   /// A dropper of an overhead line. Lengths are in m.
@@ -67,7 +68,8 @@ namespace taut
     double begin = 0., offset = 0.;
     unsigned int n_spans = 10;
     double span_length = 60.;
-    std::vector<double> span_lengths, encumbrances = {1.2}, heights = {0.}, stitch_lengths = {0.};
+    std::vector<double> span_lengths, encumbrances = {1.2}, heights = {0.}, stitch_lengths = {0.},
+                                      mid_points = {0.};
     std::vector<double> contact_stagger = {0.}, messenger_stagger = {0.};
     std::string positions = "5, 10.5, 17, 23.5, 30, 36.5, 43, 49.5, 55", pre_sag, lengths;
     std::string positions_are = "absolute";

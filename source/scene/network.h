@@ -80,7 +80,7 @@ namespace taut
            straight = false, faster_than_waves = false;
       double damping = 0., gap = 0., length = 0.;
       std::string speed = "0", strip;
-      double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
+      double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0., pull = 0.;
       void declare(dealii::ParameterHandler &prm);
 
     private:

@@ -1,146 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
+#include "written_items.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/named_items.h>
 #include <taut/scene/network_entries.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <utility>
+#include <taut/scene/travel.h>
 
 namespace taut
 {
   namespace
   {
-    /// With the digits from which it is read back to the last bit.
-    std::string number(const double value)
-    {
-      return to_text(std::setprecision(17), value);
-    }
-
-    std::string numbers(const std::vector<double> &values)
-    {
-      std::string text;
-      for (const double value : values)
-        text += (text.empty() ? "" : ", ") + number(value);
-      return text;
-    }
-
-    std::string coordinates(const Coordinates &p)
-    {
-      return p.z == 0. && !std::signbit(p.z) ? numbers({p.x, p.y}) : numbers({p.x, p.y, p.z});
-    }
-
-    /// Whether the signs of zeros agree, too.
-    bool is_same(const double a, const double b)
-    {
-      return a == b && std::signbit(a) == std::signbit(b);
-    }
-
-    bool is_same(const Coordinates &a, const Coordinates &b)
-    {
-      return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
-    }
-
-    /// A vector from which the reader makes this unit vector: to divide by a length rounds, so that
-    /// not each is one that the vector itself gives.
-    Coordinates vector_of(const Coordinates &direction)
-    {
-      constexpr int most = 4096;
-      for (int k = 0; k < most; ++k)
-      {
-        const double factor = 1. + k / 1024.;
-        const Coordinates longer = {factor * direction.x, factor * direction.y,
-                                    factor * direction.z};
-        if (is_same(unit(longer, ""), direction))
-          return longer;
-      }
-      return direction;
-    }
-
-    /// Entries of one list of items, each in a section of its own.
-    class Items
-    {
-    public:
-      Items(std::vector<WrittenEntry> &all, std::string list, std::string section)
-          : all(all), section(std::move(section))
-      {
-        all.push_back({{"Network", std::move(list)}, ""});
-        place_of_names = all.size() - 1;
-      }
-
-      /// Begins the section of an item. A name that another item has gets a number.
-      void begin(const std::string &given)
-      {
-        std::string own = given;
-        for (int k = 2; !names.insert(own).second; ++k)
-          own = given + " " + std::to_string(k);
-        check_item_names({own}, "");
-        if (own.find(',') != std::string::npos || trim(own) != own)
-          throw UserError("'" + own +
-                          "' cannot be a name in a parameter file: lists of names have "
-                          "commas between them; give it another name");
-        std::string &list = all[place_of_names].value;
-        list += (list.empty() ? "" : ", ") + own;
-        name = own;
-      }
-
-      void set(const std::string &entry, const std::string &value)
-      {
-        all.push_back({{"Network", section + " " + name, entry}, value});
-      }
-
-      void set_text(const std::string &usual, const std::string &entry, const std::string &value)
-      {
-        if (value != usual)
-          set(entry, value);
-      }
-
-      void set_number(const double usual, const std::string &entry, const double value)
-      {
-        if (!is_same(value, usual))
-          set(entry, number(value));
-      }
-
-      void set_flag(const bool usual, const std::string &entry, const bool value)
-      {
-        if (value != usual)
-          set(entry, value ? "true" : "false");
-      }
-
-      /// Direction of a displacement or force, or axis of a rotation or moment.
-      void set_direction(const bool rotational, const Coordinates &direction, const bool is_usual)
-      {
-        set_flag(false, "Rotational", rotational);
-        if (!is_usual ||
-            !is_same(direction, rotational ? Coordinates{0., 0., 1.} : Coordinates{0., 1.}))
-          set(rotational ? "Axis" : "Direction", coordinates(vector_of(direction)));
-      }
-
-    private:
-      std::vector<WrittenEntry> &all;
-      std::size_t place_of_names;
-      std::string section, name;
-      std::set<std::string> names;
-    };
-
     std::string text_of(const Scene &scene, const Attachment &at)
     {
       switch (at.kind)
       {
       case Attachment::Kind::wire:
-        return scene.wires[at.index].name + " @ " + number(at.position);
+        return scene.wires[at.index].name + " @ " + written_number(at.position);
       case Attachment::Kind::body:
-        return scene.bodies[at.index].name + " @ " + coordinates(at.place);
+        return scene.bodies[at.index].name + " @ " + written_coordinates(at.place);
       case Attachment::Kind::mass:
         return scene.masses[at.index].name +
-               (at.place == Coordinates() ? std::string() : " @ " + coordinates(at.place));
+               (at.place == Coordinates() ? std::string() : " @ " + written_coordinates(at.place));
       default:
-        return at.has_place ? "ground @ " + coordinates(at.place) : "ground";
+        return at.has_place ? "ground @ " + written_coordinates(at.place) : "ground";
       }
     }
 
@@ -161,17 +43,27 @@ namespace taut
       }
     }
 
-    void write_start(Items &items, const std::string &component, const InitialMotion &start)
+    /// Of a mass, a link or a load.
+    template <typename Item>
+    void write_speed(WrittenItems &items, const Item &item)
+    {
+      if (item.travel)
+        items.set("Speed", item.travel->formula());
+      else
+        items.set_number(0., "Speed", item.speed);
+    }
+
+    void write_start(WrittenItems &items, const std::string &component, const InitialMotion &start)
     {
       items.set_text("0", "Initial " + component + " displacement", start.displacement.formula());
       items.set_text("0", "Initial " + component + " velocity", start.velocity.formula());
     }
 
-    void write_wire(Items &items, const Wire &wire)
+    void write_wire(WrittenItems &items, const Wire &wire)
     {
       items.begin(wire.name);
-      items.set("From", coordinates(wire.a));
-      items.set("To", coordinates(wire.b));
+      items.set("From", written_coordinates(wire.a));
+      items.set("To", written_coordinates(wire.b));
       std::string components = wire.has_axial ? "bar" : "";
       const auto add = [&](const std::string &component)
       { components += (components.empty() ? "" : ", ") + component; };
@@ -180,7 +72,7 @@ namespace taut
       if (wire.has_lateral)
         add("lateral");
       items.set("Components", components);
-      items.set("Mass per length", number(wire.mass_per_length));
+      items.set("Mass per length", written_number(wire.mass_per_length));
       items.set_number(0., "Axial stiffness", wire.axial_stiffness);
       items.set_number(0., "Tension", wire.tension);
       items.set_number(0., "Bending stiffness", wire.bending_stiffness);
@@ -189,14 +81,14 @@ namespace taut
                      wire.mass_matrix == MassMatrix::lumped    ? "lumped"
                      : wire.mass_matrix == MassMatrix::reduced ? "reduced"
                                                                : "consistent");
-      items.set("Element size", number(wire.element_size));
+      items.set("Element size", written_number(wire.element_size));
       items.set_number(0., "Mass damping", wire.damping.mass);
       items.set_number(0., "Stiffness damping", wire.damping.stiffness);
       items.set_number(0., "Foundation stiffness", wire.foundation_stiffness);
       items.set_number(0., "Foundation damping", wire.foundation_damping);
       std::string changes;
       for (const TensionChange &c : wire.tension_changes)
-        changes += (changes.empty() ? "" : "; ") + numbers({c.from, c.to, c.change});
+        changes += (changes.empty() ? "" : "; ") + written_numbers({c.from, c.to, c.change});
       items.set_text("", "Tension changes", changes);
       items.set_flag(true, "Weight", wire.weight);
       write_start(items, "axial", wire.axial_start);
@@ -206,27 +98,27 @@ namespace taut
 
     void write_wires(const Scene &scene, std::vector<WrittenEntry> &all)
     {
-      Items wires(all, "Wires", "Wire");
+      WrittenItems wires(all, "Wires", "Wire");
       for (const Wire &wire : scene.wires)
         write_wire(wires, wire);
-      Items supports(all, "Supports", "Support");
+      WrittenItems supports(all, "Supports", "Support");
       for (const Support &support : scene.supports)
       {
         supports.begin(support.name);
         supports.set("Wire", scene.wires[support.wire].name);
-        supports.set("Positions", numbers(support.positions));
+        supports.set("Positions", written_numbers(support.positions));
         supports.set_text("transverse", "Motion", text_of(support.motion));
         supports.set_text("fixed", "Type", support.fixed ? "fixed" : "elastic");
         supports.set_text("0", "Displacement", support.prescribed.formula());
         supports.set_number(0., "Stiffness", support.stiffness);
         supports.set_number(0., "Damping", support.damping);
       }
-      Items point_masses(all, "Point masses", "Point mass");
+      WrittenItems point_masses(all, "Point masses", "Point mass");
       for (const PointMass &mass : scene.point_masses)
       {
         point_masses.begin(mass.name);
         point_masses.set("Wire", scene.wires[mass.wire].name);
-        point_masses.set("Positions", numbers(mass.positions));
+        point_masses.set("Positions", written_numbers(mass.positions));
         point_masses.set_number(0., "Mass", mass.mass);
         point_masses.set_flag(true, "Weight", mass.weight);
       }
@@ -240,14 +132,11 @@ namespace taut
 
     void write_mechanisms(const Scene &scene, std::vector<WrittenEntry> &all)
     {
-      Items masses(all, "Masses", "Mass");
+      WrittenItems masses(all, "Masses", "Mass");
       for (const Mass &mass : scene.masses)
       {
         masses.begin(mass.name);
-        masses.set("Position", coordinates(mass.position));
-        if (mass.travel)
-          throw UserError("mass '" + mass.name +
-                          "' has a way that is not written out; its parameter file says it");
+        masses.set("Position", written_coordinates(mass.position));
         std::string motions;
         for (int k = 0; k < 4; ++k)
           if (mass.moves[k])
@@ -256,14 +145,15 @@ namespace taut
         masses.set_number(0., "Mass", mass.mass);
         masses.set_number(0., "Inertia", mass.inertia);
         masses.set_flag(true, "Weight", mass.weight);
-        masses.set_text("0, 0, 0", "Initial displacement", numbers(motions_of(mass.displacement)));
-        masses.set_text("0, 0, 0", "Initial velocity", numbers(motions_of(mass.velocity)));
+        masses.set_text("0, 0, 0", "Initial displacement",
+                        written_numbers(motions_of(mass.displacement)));
+        masses.set_text("0, 0, 0", "Initial velocity", written_numbers(motions_of(mass.velocity)));
         for (int k = 0; k < 4; ++k)
           if (mass.is_prescribed[k])
             masses.set(std::string("Prescribed ") + motion_names[k], mass.prescribed[k].formula());
-        masses.set_number(0., "Speed", mass.speed);
+        write_speed(masses, mass);
       }
-      Items springs(all, "Springs", "Spring");
+      WrittenItems springs(all, "Springs", "Spring");
       for (const Spring &spring : scene.springs)
       {
         const auto end = [&](const std::size_t mass)
@@ -295,7 +185,7 @@ namespace taut
       }
     }
 
-    void write_law(Items &items, const Link &link)
+    void write_law(WrittenItems &items, const Link &link)
     {
       const auto entries = link.law->entries();
       if (entries.empty())
@@ -304,16 +194,13 @@ namespace taut
         items.set(entry, value);
     }
 
-    void write_link(Items &items, const Link &link, const Scene &scene)
+    void write_link(WrittenItems &items, const Link &link, const Scene &scene)
     {
       const bool has_length = link.unstressed_length > 0.;
       if (has_length && !link.turns && link.gap != gap_of_length(link, scene))
         throw UserError(
             "link '" + link.name +
             "' has a Length and a Gap that does not follow from it, which no entry says");
-      if (link.travel)
-        throw UserError("link '" + link.name +
-                        "' has a way that is not written out; its parameter file says it");
       if (link.turns)
         items.set("Turns", "true");
       else
@@ -321,13 +208,14 @@ namespace taut
       if (link.law)
         write_law(items, link);
       else
-        items.set_text("rigid", "Stiffness", link.rigid() ? "rigid" : number(link.stiffness));
+        items.set_text("rigid", "Stiffness",
+                       link.rigid() ? "rigid" : written_number(link.stiffness));
       items.set_number(0., "Damping", link.damping);
       if (has_length)
-        items.set("Length", number(link.unstressed_length));
+        items.set("Length", written_number(link.unstressed_length));
       else
         items.set_number(0., "Gap", link.gap);
-      items.set_number(0., "Speed", link.speed);
+      write_speed(items, link);
       items.set_flag(false, "Faster than waves", link.faster_than_waves);
       items.set_flag(false, "Straight", link.straight);
       items.set_text("0", "Height profile", link.profile.formula());
@@ -336,11 +224,12 @@ namespace taut
       items.set_number(0., "Prescribed displacement", link.form.prescribed_displacement);
       items.set_number(0., "Axial stiffness", link.form.axial_stiffness);
       items.set_number(0., "Mass per length", link.form.mass_per_length);
+      items.set_number(0., "Pull", link.form.pull);
     }
 
     void write_links(const Scene &scene, std::vector<WrittenEntry> &all)
     {
-      Items links(all, "Links", "Link");
+      WrittenItems links(all, "Links", "Link");
       for (const Link &link : scene.links)
       {
         links.begin(link.name);
@@ -354,12 +243,9 @@ namespace taut
 
     void write_loads(const Scene &scene, std::vector<WrittenEntry> &all)
     {
-      Items loads(all, "Loads", "Load");
+      WrittenItems loads(all, "Loads", "Load");
       for (const Load &load : scene.loads)
       {
-        if (load.travel)
-          throw UserError("load '" + load.name +
-                          "' has a way that is not written out; its parameter file says it");
         loads.begin(load.name);
         loads.set_text("point", "Type",
                        load.kind == Load::Kind::distributed ? "distributed"
@@ -368,11 +254,11 @@ namespace taut
         loads.set("On", text_of(scene, load.target));
         loads.set_direction(load.rotational, load.direction, true);
         loads.set("Magnitude", load.magnitude.formula());
-        loads.set_number(0., "Speed", load.speed);
+        write_speed(loads, load);
         loads.set_flag(false, "Faster than waves", load.faster_than_waves);
         loads.set_flag(true, "Acts while built", load.acts_while_built);
       }
-      Items probes(all, "Probes", "Probe");
+      WrittenItems probes(all, "Probes", "Probe");
       for (const Probe &probe : scene.probes)
       {
         probes.begin(probe.name);

@@ -199,6 +199,7 @@ namespace taut
       link.form.prescribed_displacement = item.prescribed_displacement;
       link.form.axial_stiffness = item.axial_stiffness;
       link.form.mass_per_length = item.mass_per_length;
+      link.form.pull = item.pull;
       link.form.find_direction = item.find_direction;
       return link;
     }

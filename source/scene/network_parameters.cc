@@ -276,6 +276,11 @@ namespace taut
     prm.add_parameter("Mass per length", mass_per_length,
                       "Of a found dropper; half of its mass goes to each end [kg/m]",
                       not_negative());
+    prm.add_parameter("Pull", pull,
+                      "Of a rope between places that are apart across Direction, such as a Z-rope: "
+                      "the part of its tension across Direction. Its length is found from it, in "
+                      "place of a prescribed displacement; 0: no such rope [N]",
+                      not_negative());
   }
 
   void Network::LoadItem::declare(dealii::ParameterHandler &prm)

@@ -119,40 +119,6 @@ namespace taut
       add_arms(contact, masts);
   }
 
-  void TensionLength::add_arms(const std::size_t contact, const std::vector<double> &masts)
-  {
-    const std::string arm_name = (contact == contacts.front() ? "" : "twin ") + named("arm");
-    const LineSupportsItem &own = items.supports;
-    const bool is_hinged = own.arm_kind == "hinged";
-    if (own.arm_mass > 0.)
-    {
-      // Energy of a uniform bar about its end: (m l^2 / 3) (v / l)^2 / 2.
-      scene.point_masses.push_back({arm_name, "Catenary/Supports", contact, masts,
-                                    is_hinged ? own.arm_mass / 3. : own.arm_mass, false});
-      if (is_hinged)
-        for (std::size_t i = 0; i < masts.size(); ++i)
-        {
-          Load weight;
-          weight.name = arm_name + " weight " + std::to_string(i + 1);
-          weight.origin = "Catenary/Supports";
-          weight.target = {Attachment::Kind::wire, contact, masts[i]};
-          weight.magnitude = Expression(.5 * own.arm_mass * scene.gravity.y);
-          scene.loads.push_back(weight);
-        }
-    }
-    if (own.arm_stiffness > 0. || own.arm_damping > 0.)
-    {
-      Support arm;
-      arm.name = arm_name;
-      arm.origin = "Catenary/Supports";
-      arm.wire = contact;
-      arm.fixed = false;
-      arm.stiffness = own.arm_stiffness;
-      arm.damping = own.arm_damping;
-      hold(arm, masts, line.heights(masts));
-    }
-  }
-
   void TensionLength::add_point_masses()
   {
     for (std::size_t i = 0; i < items.masses.items.size(); ++i)
@@ -202,12 +168,15 @@ namespace taut
     }
   }
 
-  /// Supports along z at all masts, each with its own name and place.
+  /// Supports along z, each with its own name and place.
   void TensionLength::hold_aside(const std::size_t wire, const std::string &what,
-                                 double LineMast::*const stagger)
+                                 double LineMast::*const stagger,
+                                 const std::function<bool(std::size_t)> &is_held)
   {
     for (std::size_t mast = 0; mast < line.masts.size(); ++mast)
     {
+      if (!is_held(mast))
+        continue;
       Support support;
       support.name = named(what) + " " + std::to_string(mast);
       support.origin = section;
@@ -221,14 +190,17 @@ namespace taut
 
   void TensionLength::add_lateral()
   {
-    hold_aside(messenger, "messenger aside at mast", &LineMast::messenger_z);
+    const auto all = [](std::size_t) { return true; };
+    const auto without_arm = [this](const std::size_t mast)
+    { return !items.supports.has_rigid_arms() || mast == 0 || mast + 1 == line.masts.size(); };
+    hold_aside(messenger, "messenger aside at mast", &LineMast::messenger_z, all);
     std::vector<std::pair<std::size_t, Expression>> loads = {
         {messenger, items.messenger.wind_load("Messenger wire")}};
     for (const std::size_t contact : contacts)
     {
       hold_aside(contact,
                  contact == contacts.front() ? "steady arm at mast" : "twin steady arm at mast",
-                 &LineMast::contact_z);
+                 &LineMast::contact_z, without_arm);
       loads.emplace_back(contact, items.contact.wind_load("Contact wire"));
     }
     for (const auto &[wire, load] : loads)

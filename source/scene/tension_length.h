@@ -7,6 +7,7 @@
 
 #include <taut/scene/scene.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ namespace taut
     void add_stitch_wires();
     void add_droppers();
 
+    /// Two ropes at each mid-point, which pull the messenger wire and each contact wire together.
+    void add_mid_points();
+
     const std::vector<std::size_t> &contact_wires() const { return contacts; }
     const LineLayout &layout() const { return line; }
     double begin() const { return line.begin; }
@@ -52,10 +56,14 @@ namespace taut
     void hold(Support support, const std::vector<double> &s,
               const std::vector<double> &displacement);
     void add_arms(std::size_t contact, const std::vector<double> &masts);
+    void add_rigid_arm(std::size_t contact, std::size_t mast);
     void add_dropper(const LineDropper &dropper, double height, const std::string &dropper_name,
                      std::size_t contact);
-    void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger);
+    /// @p is_held says at which masts.
+    void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger,
+                    const std::function<bool(std::size_t)> &is_held);
     void check_droppers() const;
+    void check_mid_points() const;
     std::string named(const std::string &what) const;
 
     const LineItems &items;

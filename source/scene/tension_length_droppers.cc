@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later Droppers and stitch wires of a tension length, and its
-// checks.
+// SPDX-License-Identifier: LGPL-2.1-or-later Droppers, stitch wires and mid-points of a tension
+// length, and its checks.
 #include "tension_length.h"
 
 #include <taut/base/exceptions.h>
@@ -136,6 +136,75 @@ namespace taut
                  items.droppers.contact_clamp_mass);
   }
 
+  void TensionLength::add_mid_points()
+  {
+    const LineMidPointItem &own = items.mid_point;
+    for (std::size_t i = 0; i < line.masts.size(); ++i)
+    {
+      const LineMast &mast = line.masts[i];
+      if (mast.mid_point == 0.)
+        continue;
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        const auto change = [&](const std::size_t wire, const double between, const double tension)
+        {
+          scene.wires[wire].tension_changes.push_back(
+              {mast.x - .5 * between, mast.x + .5 * between, tension});
+        };
+        change(contacts[k], mast.mid_point, -own.pull);
+        if (own.messenger_distance > 0.)
+          change(messenger, own.messenger_distance, own.pull);
+        for (const bool is_last : {false, true})
+        {
+          const double side = is_last ? .5 : -.5;
+          Link rope;
+          rope.kind = LinkKind::dropper;
+          rope.origin = "Catenary/Mid-point ropes";
+          rope.name = (k == 0 ? "" : "twin ") + named("mid-point rope") + " " + std::to_string(i) +
+                      (is_last ? " right" : " left");
+          rope.from = {Attachment::Kind::wire, messenger, mast.x + side * own.messenger_distance};
+          rope.to = {Attachment::Kind::wire, contacts[k], mast.x + side * mast.mid_point};
+          rope.direction = {0., -1.};
+          rope.form.find_length = true;
+          rope.form.pull = own.pull;
+          rope.form.axial_stiffness = own.axial_stiffness;
+          rope.form.mass_per_length = own.mass_per_length;
+          rope.form.find_direction = items.is_in_space;
+          scene.links.push_back(rope);
+        }
+      }
+    }
+  }
+
+  void TensionLength::check_mid_points() const
+  {
+    const std::string ropes = "Catenary/Mid-point ropes/";
+    for (std::size_t i = 0; i < line.masts.size(); ++i)
+    {
+      const LineMast &mast = line.masts[i];
+      if (mast.mid_point == 0.)
+        continue;
+      const double half = .5 * mast.mid_point;
+      if (!(half < mast.x - line.masts[i - 1].x) || !(half < line.masts[i + 1].x - mast.x))
+        throw EntryError(section + "/Mid-points",
+                         to_text("the ropes of the mid-point at x = ", begin() + mast.x,
+                                 " m, with ", mast.mid_point,
+                                 " m between them, reach beyond a neighbouring mast"));
+      if (!(items.mid_point.messenger_distance < mast.mid_point))
+        throw EntryError(ropes + "Messenger distance",
+                         to_text("the ropes run outwards from the messenger wire; give it less "
+                                 "than the ",
+                                 mast.mid_point, " m on the contact wire"));
+      if (!(items.mid_point.pull > 0. && items.mid_point.pull < items.contact.tension))
+        throw EntryError(ropes + "Pull", to_text(items.mid_point.pull,
+                                                 " N; a rope needs a pull above 0, and the "
+                                                 "contact wire loses it between the ropes, "
+                                                 "so that it has to be less than its tension"));
+      if (!(items.mid_point.axial_stiffness > 0.))
+        throw EntryError(ropes + "Axial stiffness", "give that of the ropes, in N");
+    }
+  }
+
   void TensionLength::check_droppers() const
   {
     const std::string entry = section + "/Droppers/Positions";
@@ -196,6 +265,7 @@ namespace taut
                          "the stitch wire takes it from the messenger wire between its clamps, and "
                          "none is left there; give it less than the messenger wire has");
     }
+    check_mid_points();
     check_droppers();
   }
 } // namespace taut

@@ -22,8 +22,8 @@ namespace taut
     {
     public:
       /// Prepared up to @p end [s]; 0: nothing is stored.
-      FormulaTravel(Expression formula, const double units, const double end = 0.)
-          : formula(std::move(formula)), units(units)
+      FormulaTravel(Expression speeds, const double units, const double end = 0.)
+          : speeds(std::move(speeds)), units(units)
       {
         cells.push_back({0., 0.});
         if (!(end > 0.))
@@ -48,18 +48,16 @@ namespace taut
         return cell.way + (is_stored ? integral(cell.time, t) : outside(cell.time, t));
       }
 
-      double speed(const double t) const override { return formula(0., t) / units; }
+      double speed(const double t) const override { return speeds(0., t) / units; }
 
-      std::string text() const override
-      {
-        return formula.content() + (units == 1. ? "" : to_text(" / ", units));
-      }
+      std::string text() const override { return in_metres_per_second(speeds.content()); }
+      std::string formula() const override { return in_metres_per_second(speeds.formula()); }
 
       std::shared_ptr<const Travel> until(const double end) const override
       {
         if (end == cells.back().time)
           return shared_from_this();
-        return std::make_shared<FormulaTravel>(formula, units, end);
+        return std::make_shared<FormulaTravel>(speeds, units, end);
       }
 
       TravelRange range() const override { return reached; }
@@ -75,6 +73,11 @@ namespace taut
       {
         double time, way; ///< [s, m]
       };
+
+      std::string in_metres_per_second(const std::string &speed) const
+      {
+        return units == 1. ? speed : to_text("(", speed, ")/", units);
+      }
 
       double integral(const double a, const double b) const
       {
@@ -160,7 +163,7 @@ namespace taut
         return a;
       }
 
-      const Expression formula;
+      const Expression speeds;
       const double units; ///< that are 1 m/s
       std::vector<Cell> cells;
       TravelRange reached;

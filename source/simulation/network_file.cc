@@ -153,6 +153,27 @@ namespace taut
       scene.bodies.clear();
       return values_of(scene);
     }
+
+    /// The sections of bodies that a generator made, and their names.
+    void add_bodies(const std::vector<CustomBody> &bodies, std::vector<WrittenEntry> &entries)
+    {
+      std::string names;
+      for (const CustomBody &body : bodies)
+      {
+        names += (names.empty() ? "" : ", ") + body.name;
+        if (body.entries.empty())
+          continue;
+        const std::string section = "Body " + body.name;
+        entries.push_back({{section, "Type"}, body.type_name});
+        for (const auto &[entry, value] : body.entries)
+          entries.push_back({{section, entry}, value});
+      }
+      const auto is_list = [](const WrittenEntry &entry)
+      { return entry.path == std::vector<std::string>{"Bodies"}; };
+      entries.erase(std::remove_if(entries.begin(), entries.end(), is_list), entries.end());
+      if (!names.empty())
+        entries.insert(entries.begin(), {{"Bodies"}, names});
+    }
   } // namespace
 
   std::string Parameters::as_network(std::vector<std::string> &left_out) const
@@ -165,9 +186,7 @@ namespace taut
     if (!is_network)
     {
       const Scene scene = generated_scene();
-      if (scene.bodies.size() != bodies.bodies().size())
-        throw UserError("the generator '" + generator_name +
-                        "' makes bodies, which no section Network says; write its scene as it is");
+      add_bodies(scene.bodies, entries);
       for (WrittenEntry &entry : network_entries(scene))
         entries.push_back(std::move(entry));
     }

@@ -14,7 +14,8 @@ namespace taut
     constexpr double conspicuous = 1e-10;
 
     /// Columns of A^-1 end where they have decayed to 1e-18. A motion below this part of the
-    /// largest one is hence not known from its own terms.
+    /// largest one is hence not known from its own terms, and the same holds for motions of one
+    /// body that is not linear.
     constexpr double decayed = 1e-6;
 
     /// Part of the motion of whole bodies that counts in the scale of a constraint.
@@ -91,8 +92,16 @@ namespace taut
             else
               terms[k][j] += std::fabs(value * U[i]);
           });
+      double largest = 0.;
       for (std::size_t i = 0; i < U.size(); ++i)
+      {
         terms[k][i] = diagonal[i] > 0. ? terms[k][i] / diagonal[i] : std::fabs(U[i]);
+        largest = std::max(largest, std::fabs(U[i]));
+      }
+      // Conditions inside of a body tie its directions to each other.
+      if (!structure[k].is_linear())
+        for (double &term : terms[k])
+          term += decayed * largest;
     }
     std::vector<double> size(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)

@@ -119,6 +119,28 @@ TEST(WrittenNetwork, bump_stops_with_laws_run_bit_by_bit)
       5);
 }
 
+TEST(WrittenNetwork, speeds_in_time_and_mid_points_run_bit_by_bit)
+{
+  expect_same_run("en50318_2002_250",
+                  Overrides{"Catenary.Pantograph pantograph.Speed=250 - 60*t^2/(1 + t)",
+                            "Catenary.Pantograph pantograph.Lift=0.003, 0.001",
+                            "Catenary.Pantograph pantograph.Base motion=0.001*sin(s)",
+                            "Catenary.Mid-points=0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0",
+                            "Catenary.Mid-point ropes.Pull=700",
+                            "Catenary.Mid-point ropes.Axial stiffness=1e6"} +
+                      short_run,
+                  5);
+}
+
+TEST(WrittenNetwork, arms_that_are_rigid_bodies_run_bit_by_bit)
+{
+  expect_same_run("en50318_in_space",
+                  Overrides{"Catenary.Supports.Arm kind=rigid body",
+                            "Catenary.Supports.Arm reach=1.1", "Time.Scheme=Moreau-Jean"} +
+                      short_run,
+                  5);
+}
+
 TEST(WrittenNetwork, laws_by_formula_run_bit_by_bit)
 {
   expect_same_run("oscillator_with_stop",

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dealii
@@ -81,7 +82,16 @@ namespace taut
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::string type_name;
     std::shared_ptr<const BodyType> type; ///< nullptr: of a program that has no scene
+
+    /// Names and values of a body that a scene generator made; empty: the parameter file has them.
+    std::vector<std::pair<std::string, std::string>> entries = {};
   };
+
+  /// A body of a scene generator, of a registered type. Throws what the type says about its
+  /// entries.
+  CustomBody make_body(const std::string &name, const std::string &origin,
+                       const std::string &type_name,
+                       const std::vector<std::pair<std::string, std::string>> &entries);
 
   /// The bodies that a parameter file lists in `Bodies`, each with a section `Body <name>`. They
   /// are read in three passes: names, types, all entries.

@@ -25,8 +25,8 @@ namespace taut
    * Entries of the section `Network` from which the generator `network` makes the wires, supports,
    * masses, springs, links, loads and probes of a scene again, in their order and to the last bit.
    * Entries with their default values are left out. Point masses, springs and loads that share a
-   * name get a number. Throws UserError for what no entry says: a law or a way of a link that is
-   * not a formula, and names with characters that names of items do not have.
+   * name get a number. Throws UserError for what no entry says: a law of a
+   * program, and names with characters that names of items do not have.
    */
   std::vector<WrittenEntry> network_entries(const Scene &scene);
 } // namespace taut

@@ -243,6 +243,10 @@ namespace taut
     double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
 
+    /// Of a rope whose ends are apart across `direction`, such as a Z-rope: the part of its tension
+    /// across `direction` [N]. The length follows from it, not from a height; 0: from the height.
+    double pull = 0.;
+
     /// The direction from end to end, too, for a dropper between wires without axial motion;
     /// `direction` of the link is the direction in which the height is prescribed.
     bool find_direction = false;

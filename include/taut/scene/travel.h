@@ -34,6 +34,9 @@ namespace taut
     /// comparisons of scenes.
     virtual std::string text() const = 0;
 
+    /// The entry Speed from which a travel in m/s has the same bits.
+    virtual std::string formula() const = 0;
+
     /// The same travel, prepared for times up to @p end [s]. Throws EntryError where its speed has
     /// no value.
     virtual std::shared_ptr<const Travel> until(double end) const = 0;

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "found_droppers.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/base/text.h>
+#include <taut/model/scene_constraints.h>
+#include <taut/scene/entries.h>
+#include <taut/time/static_equilibrium.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace taut
+{
+  namespace
+  {
+    /// Vectors from end to end of undeformed links [m]. Only a body knows the positions of its
+    /// places.
+    std::vector<Coordinates> between_ends(const Scene &scene, const std::vector<Link> &links)
+    {
+      const bool is_on_body = std::any_of(links.begin(), links.end(),
+                                          [](const Link &link) {
+                                            return link.from.kind == Attachment::Kind::body ||
+                                                   link.to.kind == Attachment::Kind::body;
+                                          });
+      std::optional<SceneBodies> bodies;
+      if (is_on_body)
+        bodies.emplace(scene);
+      const auto at = [&](const Attachment &end)
+      { return bodies ? bodies->position(scene, end) : place(scene, end); };
+      std::vector<Coordinates> result;
+      for (const Link &link : links)
+        result.push_back(at(link.to) - at(link.from));
+      return result;
+    }
+
+    /// The direction across a dropper and the wire from which it hangs.
+    Coordinates sideways(const Scene &scene, const Link &dropper)
+    {
+      return unit(cross(dropper.direction, scene.wires[dropper.from.index].tangent()),
+                  dropper.origin);
+    }
+
+    /// Distance of the ends of a rope across its direction and the direction aside.
+    double run_of(const Scene &scene, const Link &rope, const Coordinates &between)
+    {
+      Coordinates across = add_scaled(between, -dot(between, rope.direction), rope.direction);
+      if (rope.form.find_direction)
+      {
+        const Coordinates aside = sideways(scene, rope);
+        across = add_scaled(across, -dot(across, aside), aside);
+      }
+      // Places from which a rope hangs straight down differ by rounding.
+      constexpr double rounding = 1e-12;
+      const double run = norm(across);
+      if (!(run > rounding * norm(between)))
+        throw EntryError(rope.origin + "/Pull",
+                         "both ends of rope '" + rope.name +
+                             "' are above each other, so that no part of its tension is across its "
+                             "Direction; move one, or give a Prescribed displacement in its place");
+      return run;
+    }
+  } // namespace
+
+  std::vector<FoundDropper> found_droppers(const Scene &scene, const std::vector<Link> &links)
+  {
+    const std::vector<Coordinates> between = between_ends(scene, links);
+    std::vector<FoundDropper> result;
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      FoundDropper dropper{links[i], between[i]};
+      if (links[i].form.pull > 0.)
+        dropper.run = run_of(scene, links[i], between[i]);
+      dropper.link.length = dropper.length_over(dot(between[i], links[i].direction));
+      result.push_back(std::move(dropper));
+    }
+    return result;
+  }
+
+  void add_mass(const Link &link, Scene &scene)
+  {
+    if (link.form.mass_per_length == 0.)
+      return;
+    const double half = .5 * link.form.mass_per_length * link.length;
+    for (const Attachment *end : {&link.from, &link.to})
+      if (end->kind == Attachment::Kind::wire)
+        scene.point_masses.push_back(
+            {link.name, link.origin, end->index, {end->position}, half, true});
+      else
+        scene.masses[end->index].mass += half;
+  }
+
+  namespace
+  {
+    Load force(const Link &link, const Attachment &end, const double magnitude)
+    {
+      Load load;
+      load.name = link.name;
+      load.target = end;
+      load.direction = link.direction;
+      load.magnitude = Expression(magnitude);
+      return load;
+    }
+
+    /// A spring that pulls the ends of a dropper together, in proportion to their distance along a
+    /// direction.
+    Link spring_between(const FoundDropper &dropper, const Coordinates &direction,
+                        const double stiffness)
+    {
+      Link spring;
+      spring.name = dropper.link.name;
+      spring.from = dropper.link.from;
+      spring.to = dropper.link.to;
+      spring.direction = direction;
+      spring.stiffness = stiffness;
+      spring.gap = dot(dropper.between, direction);
+      return spring;
+    }
+
+    /// Bilateral constraints that hold the `to` ends: their multipliers are minus the tensions. 0
+    /// for ropes.
+    std::vector<double> tensions(const Scene &base, const std::vector<FoundDropper> &droppers,
+                                 const SolverParameters &parameters)
+    {
+      Scene scene = base;
+      for (const FoundDropper &dropper : droppers)
+      {
+        const Link &link = dropper.link;
+        add_mass(link, scene);
+        if (dropper.is_rope())
+        {
+          scene.links.push_back(spring_between(dropper, link.direction, dropper.force_density()));
+          continue;
+        }
+        Link hold;
+        hold.name = link.name;
+        hold.kind = LinkKind::joint;
+        hold.to = link.to;
+        hold.direction = link.direction;
+        hold.gap = link.form.prescribed_displacement;
+        scene.links.push_back(hold);
+      }
+      const SceneBodies structure(scene);
+      const Constraints constraints = scene_constraints(scene, structure);
+      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
+      std::vector<double> result;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        if (droppers[i].is_rope())
+        {
+          result.push_back(0.);
+          continue;
+        }
+        const Link &link = droppers[i].link;
+        const double tension = -state.multiplier[constraints.index_of_link(base.links.size() + i)];
+        if (!(tension >= 0.))
+        {
+          throw EntryError(link.origin,
+                           to_text("dropper '", link.name, "' would have to push with ", -tension,
+                                   " N to hold its wire at the prescribed height, ",
+                                   -link.form.prescribed_displacement,
+                                   " m as it was read. Move or remove it, or prescribe another "
+                                   "height."));
+        }
+        result.push_back(tension);
+      }
+      return result;
+    }
+
+    /// Distances of the ends of the droppers, each along a direction, in the static state of a
+    /// scene.
+    std::vector<double> distances(const Scene &scene, const std::vector<FoundDropper> &droppers,
+                                  const std::vector<Coordinates> &directions,
+                                  const SolverParameters &parameters)
+    {
+      const SceneBodies structure(scene);
+      const Constraints constraints = scene_constraints(scene, structure);
+      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
+      std::vector<double> result;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        std::vector<Term> terms;
+        structure.motion(droppers[i].link.to, false, directions[i], 1., terms);
+        structure.motion(droppers[i].link.from, false, directions[i], -1., terms);
+        result.push_back(dot(droppers[i].between, directions[i]) +
+                         evaluate(terms, state.displacement));
+      }
+      return result;
+    }
+
+    /**
+     * The droppers under their tensions. If the direction of a dropper is found, `tension` is the
+     * part V of its tension along the prescribed height. The lateral part follows from the
+     * direction: V/h times the lateral extent of the dropper, with the distance h along the height,
+     * which no lateral force changes. This is a spring of stiffness V/h (a force density, H.-J.
+     * Schek, Computer Methods in Applied Mechanics and Engineering 3 (1974), 115-134), so that the
+     * static state is that of a linear scene. A rope of known pull is such a spring in both
+     * directions.
+     */
+    DropperForm form_under(const Scene &base, const std::vector<FoundDropper> &droppers,
+                           const std::vector<double> &tension, const SolverParameters &parameters)
+    {
+      Scene scene = base;
+      std::vector<Coordinates> directions;
+      bool finds_directions = false;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        const Link &link = droppers[i].link;
+        add_mass(link, scene);
+        if (droppers[i].is_rope())
+          scene.links.push_back(
+              spring_between(droppers[i], link.direction, droppers[i].force_density()));
+        else
+        {
+          scene.loads.push_back(force(link, link.from, tension[i]));
+          scene.loads.push_back(force(link, link.to, -tension[i]));
+        }
+        directions.push_back(link.direction);
+        finds_directions |= link.form.find_direction;
+      }
+      DropperForm form{tension, distances(scene, droppers, directions, parameters),
+                       std::vector<double>(droppers.size(), 0.)};
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        if (!(form.length[i] > 0.))
+          throw EntryError(
+              droppers[i].link.origin,
+              to_text(
+                  "dropper '", droppers[i].link.name,
+                  "' would have no length: its wires touch in the static state. Undeformed they "
+                  "are ",
+                  dot(droppers[i].between, droppers[i].link.direction),
+                  " m apart as it was read: are lengths in millimetres? Otherwise increase the "
+                  "encumbrance or the tension of the upper wire."));
+        if (droppers[i].is_rope())
+          form.tension[i] = droppers[i].force_density() * form.length[i];
+      }
+      if (!finds_directions)
+        return form;
+
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (droppers[i].link.form.find_direction)
+        {
+          directions[i] = sideways(scene, droppers[i].link);
+          if (form.tension[i] > 0.)
+            scene.links.push_back(
+                spring_between(droppers[i], directions[i], form.tension[i] / form.length[i]));
+        }
+      const std::vector<double> extent = distances(scene, droppers, directions, parameters);
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (droppers[i].link.form.find_direction)
+        {
+          const double length = std::hypot(form.length[i], extent[i]);
+          form.tension[i] *= length / form.length[i];
+          form.length[i] = length;
+          form.sideways[i] = extent[i];
+        }
+      return form;
+    }
+
+    /// Turns a dropper into the direction that was found.
+    void set_direction(const Scene &scene, const double tension, const double length,
+                       const double extent, const Coordinates &between, Link &link)
+    {
+      const double c = std::sqrt(1. - extent * extent / (length * length)), s = extent / length;
+      const Coordinates along = link.direction, across = sideways(scene, link), zero;
+      link.direction = add_scaled(add_scaled(zero, c, along), s, across);
+      link.sideways.direction = add_scaled(add_scaled(zero, -s, along), c, across);
+      link.sideways.stiffness = tension / length;
+      link.sideways.gap = dot(between, link.sideways.direction);
+    }
+  } // namespace
+
+  DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
+                        const SolverParameters &parameters)
+  {
+    constexpr int max_iterations = 30;
+    for (int iteration = 0;; ++iteration)
+    {
+      const DropperForm form =
+          form_under(base, droppers, tensions(base, droppers, parameters), parameters);
+      double change = 0.;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        Link &link = droppers[i].link;
+        const double length = droppers[i].length_over(form.length[i]);
+        if (link.form.mass_per_length > 0.)
+          change = std::max(change, std::fabs(length - link.length) / length);
+        link.length = length;
+      }
+      if (change < 1e-12)
+        return form;
+      if (iteration + 1 == max_iterations)
+        throw EntryError(
+            droppers.front().link.origin,
+            "the dropper lengths do not settle: their weight decides the shape of the wires. "
+            "Check the mass per length of the droppers.");
+    }
+  }
+
+  void take_form(const Scene &scene, const FoundDropper &dropper, const DropperForm &form,
+                 const std::size_t i, Link &link)
+  {
+    const double extent = form.length[i], N = form.tension[i];
+    link.length = dropper.length_over(extent);
+    if (link.form.axial_stiffness > 0.)
+      link.stiffness = link.form.axial_stiffness / link.length;
+    double elongation = link.elongation(N);
+    if (dropper.is_rope())
+    {
+      // Along the link, a part of the spring and of the force density, which turns.
+      const double part = extent / link.length, run = dropper.run / link.length;
+      elongation = N / part / link.stiffness;
+      link.stiffness = dropper.force_density() * run * run + link.stiffness * part * part;
+    }
+    if (link.form.find_direction)
+      set_direction(scene, N, extent, form.sideways[i], dropper.between, link);
+    // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
+    link.gap = extent - dot(dropper.between, link.direction) - link.elongation(N);
+    link.unstressed_length = link.length - elongation;
+  }
+} // namespace taut
