@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
 #include <taut/base/write_file.h>
 #include <taut/output/scene_sketch.h>
+#include <taut/scene/contact_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <map>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace taut
 {
@@ -76,7 +79,7 @@ namespace taut
 
       std::string end()
       {
-        out << "<text x=\"8\" y=\"14\">black: wires and cables, blue: supports and ground, green: "
+        out << "<text x=\"8\" y=\"14\">black: wires and bodies, blue: supports and ground, green: "
                "masses, red: links (hollow: unilateral); heights x "
             << std::setprecision(2) << sy / sx << "</text>\n</svg>\n";
         return out.str();
@@ -132,8 +135,71 @@ namespace taut
       return {from, to};
     }
 
-    void include_all(const Scene &scene, const ScenePlaces &places, Sketch &sketch)
+    using Lines = std::vector<std::pair<Coordinates, Coordinates>>;
+
+    /// Edges of the faces of a surface.
+    Lines edges_of(const ContactSurface &surface)
     {
+      Lines lines;
+      for (const std::vector<unsigned int> &face : surface.faces)
+      {
+        const auto at = [&](const std::size_t corner) { return surface.points[face[corner]]; };
+        if (surface.dim < 3)
+        {
+          lines.emplace_back(at(0), at(1));
+          continue;
+        }
+        // Triangles have 3 or 6 nodes, quadrilaterals (degree + 1)^2 in lexicographic order.
+        const std::size_t n = surface.degree + 1, last = n * n - 1;
+        const std::vector<std::size_t> corners =
+            face.size() == n * n ? std::vector<std::size_t>{0, n - 1, last, last - (n - 1)}
+                                 : std::vector<std::size_t>{0, 1, 2};
+        for (std::size_t c = 0; c < corners.size(); ++c)
+          lines.emplace_back(at(corners[c]), at(corners[(c + 1) % corners.size()]));
+      }
+      return lines;
+    }
+
+    /// What shows body @p b, unless it is a cable: its surface or, without one, lines from the
+    /// first to the other places where links act on it.
+    Lines outline_of(const Scene &scene, const ScenePlaces &places, const std::size_t b)
+    {
+      const CustomBody &body = scene.bodies[b];
+      try
+      {
+        return edges_of(body.type->surface({body.name, body.origin, scene.gravity}, {}));
+      }
+      catch (const EntryError &)
+      {
+      }
+      std::vector<Coordinates> held;
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+        for (const auto &[end, at] :
+             {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
+          if (end->kind == Attachment::Kind::body && end->index == b)
+            held.push_back(at);
+      Lines lines;
+      for (std::size_t j = 1; j < held.size(); ++j)
+        lines.emplace_back(held[0], held[j]);
+      return lines;
+    }
+
+    /// Of all bodies, in their order.
+    std::vector<Lines> outlines_of(const Scene &scene, const ScenePlaces &places)
+    {
+      std::vector<Lines> result;
+      for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        result.push_back(places.cables[b].empty() ? outline_of(scene, places, b) : Lines());
+      return result;
+    }
+
+    void include_all(const Scene &scene, const ScenePlaces &places,
+                     const std::vector<Lines> &outlines, Sketch &sketch)
+    {
+      for (const Lines &outline : outlines)
+        for (const auto &[p, q] : outline)
+          for (const Coordinates &end : {p, q})
+            sketch.include(end);
       for (const Wire &wire : scene.wires)
         for (const Coordinates &end : {wire.a, wire.b})
           sketch.include(end);
@@ -167,7 +233,8 @@ namespace taut
   void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path)
   {
     Sketch sketch;
-    include_all(scene, places, sketch);
+    const std::vector<Lines> outlines = outlines_of(scene, places);
+    include_all(scene, places, outlines, sketch);
     sketch.begin();
     const std::string thick = "stroke=\"black\" stroke-width=\"2\"";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
@@ -177,8 +244,10 @@ namespace taut
       const std::vector<Coordinates> &cable = places.cables[b];
       for (std::size_t j = 1; j < cable.size(); ++j)
         sketch.line(cable[j - 1], cable[j], thick);
-      if (!cable.empty())
-        sketch.label(cable[0], scene.bodies[b].name);
+      for (const auto &[p, q] : outlines[b])
+        sketch.line(p, q, "stroke=\"black\"");
+      if (!cable.empty() || !outlines[b].empty())
+        sketch.label(cable.empty() ? outlines[b][0].first : cable[0], scene.bodies[b].name);
     }
     for (const Wire &wire : scene.wires)
     {

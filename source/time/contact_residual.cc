@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Residuals of the conditions on the constraints, for the certificate.
+#include <taut/substructure/constrained_body.h>
 #include <taut/time/contact_conditions.h>
 #include <taut/time/matrix_norms.h>
 
@@ -14,8 +15,7 @@ namespace taut
     constexpr double conspicuous = 1e-10;
 
     /// Columns of A^-1 end where they have decayed to 1e-18. A motion below this part of the
-    /// largest one is hence not known from its own terms, and the same holds for motions of one
-    /// body that is not linear.
+    /// largest one is hence not known from its own terms.
     constexpr double decayed = 1e-6;
 
     /// Part of the motion of whole bodies that counts in the scale of a constraint.
@@ -99,9 +99,9 @@ namespace taut
         largest = std::max(largest, std::fabs(U[i]));
       }
       // Conditions inside of a body tie its directions to each other.
-      if (!structure[k].is_linear())
+      if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
         for (double &term : terms[k])
-          term += decayed * largest;
+          term += rest * largest;
     }
     std::vector<double> size(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)

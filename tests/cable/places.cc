@@ -224,6 +224,34 @@ TEST(CablePlaces, a_sketch_of_a_guyed_mast_fits_on_a_page)
   expect(drawing, {"height=\"780\"", "heights x 1<", "M40 740 l-5 8 h10 z", "M915.0"});
 }
 
+// Claim: solids are drawn by their surface, rigid bodies by the places of their links. A square of
+// 1 m with 4 edges, on a rigid arm of 1 m.
+TEST(CablePlaces, a_sketch_of_bodies_shows_their_outlines)
+{
+  Session session("Generator = network; Gravity = 0, 0; Start = undeformed\n"
+                  "Body square: Type = solid; Young's modulus = 1e9; Density = 1000\n"
+                  "Body square/Mesh: Generator = hyper_rectangle; Arguments = 0, 1 : 1, 2\n"
+                  "Body arm: Type = rigid body; Mass = 1; Centre = 0.5, 0.5; "
+                  "Moments of inertia = 1, 1, 1\n"
+                  "Link foot: Type = joint; From = ground; To = arm @ 0, 0; Direction = 0, 1\n"
+                  "Link top: Type = joint; From = arm @ 0, 1; To = square @ 0, 1; "
+                  "Direction = 0, 1\nTime: End = 0; Step = 0.01\n");
+  const ScenePlaces places =
+      places_in_space(session.simulation().scene(), session.simulation().structure());
+  write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
+  const std::string drawing = file_text(session.folder() + ".svg");
+  std::remove((session.folder() + ".svg").c_str());
+  // 1 x 2 m on 700 pixels of height: 350 pixels a metre.
+  const std::string stroke = "stroke=\"black\"/>";
+  std::size_t n = 0;
+  for (std::size_t at = drawing.find(stroke); at != std::string::npos;
+       at = drawing.find(stroke, at + 1))
+    ++n;
+  EXPECT_EQ(n, 5u) << drawing;
+  expect(drawing, {"x1=\"40\" y1=\"740\" x2=\"40\" y2=\"390\"",
+                   "x1=\"40\" y1=\"40\" x2=\"390\" y2=\"40\"", ">square</text>", ">arm</text>"});
+}
+
 TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
 {
   const std::string scene =

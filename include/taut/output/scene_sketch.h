@@ -10,7 +10,8 @@ namespace taut
 {
   /// Draws the geometry at U = 0 along x and y as SVG, with one scale for both, or with exaggerated
   /// heights if the scene is much longer than high. A link from the ground goes to its place there
-  /// or, without one, along its direction to the lowest point of the scene. Throws UserError.
+  /// or, without one, along its direction to the lowest point of the scene. A solid is drawn by its
+  /// surface, a body without a surface by lines between the places of its links. Throws UserError.
   void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path);
 } // namespace taut
 
