@@ -2,7 +2,6 @@
 #include <taut/base/archive.h>
 #include <taut/base/text.h>
 #include <taut/output/low_pass.h>
-#include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
 #include <algorithm>
@@ -13,7 +12,8 @@ namespace taut
 {
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
                          const Constraints &rows)
-      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene))
+      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene)),
+        supports(scene)
   {
     for (SlidingContact &contact : sliding_contacts(scene, rows))
     {
@@ -35,8 +35,6 @@ namespace taut
       }
     for (const Probe &probe : scene.probes)
       probes.push_back({probe.name, probe.unit(), probe.quantity == Probe::Quantity::displacement});
-    for (const SupportPoint &point : support_points(scene))
-      supports.push_back({point.name, point.is_moment});
   }
 
   void Statistics::record_links(const StepView &step, const double dt)
@@ -91,6 +89,15 @@ namespace taut
     }
   }
 
+  /// Whether a sliding contact is in the window now; true without such contacts.
+  bool Statistics::is_in_window() const
+  {
+    return contacts.empty() ||
+           std::any_of(contacts.begin(), contacts.end(),
+                       [&](const Contact &contact)
+                       { return parameters.is_in_window(*(contact.places.end() - 2)); });
+  }
+
   void Statistics::record(const StepView &step)
   {
     const State &state = step.state;
@@ -110,15 +117,7 @@ namespace taut
       probe.largest = std::max(probe.largest, probe.last);
       probe.smallest = std::min(probe.smallest, probe.last);
     }
-    for (std::size_t i = 0; i < supports.size(); ++i)
-    {
-      SupportQuantities &support = supports[i];
-      const double force = step.supports[i];
-      if (is_start)
-        support.start = support.largest = support.smallest = force;
-      support.largest = std::max(support.largest, force);
-      support.smallest = std::min(support.smallest, force);
-    }
+    supports.record(step.supports, dt, is_in_window());
     if (dt != 0.) // the start is no step
       record_certificate(step);
   }
@@ -161,8 +160,7 @@ namespace taut
     for (SpannedWire &wire : spanned)
       for (Span &span : wire.spans)
         archive &span.sag;
-    for (SupportQuantities &support : supports)
-      archive &support.start &support.largest &support.smallest;
+    archive &supports;
   }
 
   void Statistics::save(OutputArchive &archive)
@@ -295,6 +293,8 @@ namespace taut
                                {probe.name, "smallest", probe.smallest, unit},
                                {probe.name, "last", probe.last, unit}});
     }
+    const std::vector<NamedQuantity> reactions = supports.named();
+    list.insert(list.end(), reactions.begin(), reactions.end());
     return list;
   }
 } // namespace taut

@@ -124,6 +124,20 @@ namespace taut
       return entry;
     }
 
+    static json of(const SupportFigures::Figures &f)
+    {
+      json entry = {{"wire", f.wire},
+                    {"position", quantity(f.position, "m")},
+                    {"at_start", quantity(f.at_start, f.unit)}};
+      if (f.n_samples > 0)
+      {
+        entry["mean"] = quantity(f.window.mean, f.unit);
+        entry["maximum"] = quantity(f.window.largest, f.unit);
+        entry["minimum"] = quantity(f.window.least, f.unit);
+      }
+      return entry;
+    }
+
     /// By wire.
     static json of_spans(const Statistics &all)
     {
@@ -237,13 +251,8 @@ namespace taut
         entry[identifier(q.quantity)] = quantity(q.value, q.unit);
     }
     json &of_supports = root["supports"] = json::object();
-    for (const SupportQuantities &support : supports)
-    {
-      const std::string unit = support.is_moment ? "N m" : "N";
-      of_supports[support.name] = {{"start", quantity(support.start, unit)},
-                                   {"largest", quantity(support.largest, unit)},
-                                   {"smallest", quantity(support.smallest, unit)}};
-    }
+    for (const SupportFigures::Figures &support : supports.of_supports())
+      of_supports[support.name] = Json::of(support);
     root["spans"] = Json::of_spans(*this);
     for (const NamedQuantity &q : others)
       root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);

@@ -4,6 +4,7 @@
 #include "scene_tests.h"
 
 #include <taut/output/spans.h>
+#include <taut/study/measured_run.h>
 #include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
@@ -137,6 +138,14 @@ TEST(LineFigures, columns_of_sweeps_are_the_statistics)
       n_slackenings += key == "slackenings" ? value(quantity) : 0.;
     }
   EXPECT_EQ(n_compared, 12 + 6 * 9);
+  const std::pair<const char *, const char *> reactions[] = {{"reaction at the start", "at_start"},
+                                                             {"smallest reaction", "minimum"},
+                                                             {"largest reaction", "maximum"},
+                                                             {"mean reaction", "mean"}};
+  EXPECT_GT(said.at("supports").size(), 2u);
+  for (const auto &[name, support] : said.at("supports").items())
+    for (const auto &[title, key] : reactions)
+      compare(name + ": " + title + " [N]", value(support.at(key)));
   EXPECT_GT(n_slackenings, 0.);
 }
 
@@ -163,6 +172,95 @@ TEST(LineFigures, sags_of_spans_are_those_of_strings)
   const double moment = .8 * g * 40. * 40. / 8. + 250. * g;
   EXPECT_NEAR(value(messenger[1].at("sag")), 1e3 * moment / 12000., 1e-6);
   EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
+}
+
+// Expected of strings whose droppers keep the contact wire on its chords: at a mast the shear of
+// the loads of both spans as on beams, and T times the slopes of both chords. In a span between
+// arms droppers carry 15, 10 and 15 m of the contact wire, in a span to an end 10, 10 and 15 m.
+TEST(LineFigures, reactions_at_rest_are_those_of_strings)
+{
+  const Said said =
+      say(line + "Pantograph pantograph: -\n"
+                 "Catenary: Pantographs =; Number of spans = 3; Encumbrance = 1.2, 1.4, 1.4, 1.2\n"
+                 "Time: End = 2e-3\nStatistics: Window =\n");
+  const double g = 9.81, messenger_end = .8 * 20. * g + 16.25 * g - 12000. * .2 / 40.,
+               messenger_mast = .8 * 40. * g + (18.75 + 20.) * g + 12000. * .2 / 40.;
+  int n = 0;
+  for (const auto &[name, support] : said.json.at("supports").items())
+  {
+    if (support.at("wire") != "messenger")
+      continue;
+    const double place = value(support.at("position"));
+    const bool is_end = place < 1. || place > 119.;
+    for (const char *const figure : {"at_start", "minimum", "maximum", "mean"})
+    {
+      EXPECT_NEAR(value(support.at(figure)), is_end ? messenger_end : messenger_mast, 1e-6)
+          << name << ' ' << figure;
+      EXPECT_EQ(support.at(figure).at("unit"), "N") << name;
+    }
+    ++n;
+  }
+  EXPECT_EQ(n, 4);
+}
+
+TEST(LineFigures, reactions_are_those_of_the_table)
+{
+  Session session(line, {"Output/Interval=0", "Output/Link interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const auto supports = read_table(session.folder() + "/supports.csv"),
+             sliding = read_table(session.folder() + "/sliding.csv");
+  const std::vector<double> &place = sliding.at("pantograph position [m]");
+  EXPECT_EQ(said.at("supports").size(), supports.size() - 1);
+  for (const auto &[name, support] : said.at("supports").items())
+  {
+    const std::vector<double> &force = supports.at(name + " force [N]");
+    ASSERT_EQ(force.size(), place.size());
+    double n = 0., sum = 0., least = 1e9, largest = -1e9;
+    for (std::size_t i = 0; i < force.size(); ++i)
+      if (place[i] > 20. - 1e-9 && place[i] < 65. + 1e-9)
+      {
+        n += 1.;
+        sum += force[i];
+        least = std::min(least, force[i]);
+        largest = std::max(largest, force[i]);
+      }
+    ASSERT_GT(n, 0.);
+    EXPECT_LT(n, place.size());
+    EXPECT_NEAR(value(support.at("at_start")), force.at(0), 1e-9) << name;
+    EXPECT_NEAR(value(support.at("mean")), sum / n, 1e-8) << name;
+    EXPECT_NEAR(value(support.at("minimum")), least, 1e-9) << name;
+    EXPECT_NEAR(value(support.at("maximum")), largest, 1e-9) << name;
+  }
+}
+
+// Of a study: the same number, and the column of the table as a history.
+TEST(LineFigures, reactions_are_quantities_of_studies)
+{
+  Session session(line, {"Output/Link interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const std::string name = "messenger at masts", file = session.folder() + "/scene.prm";
+  {
+    std::ofstream text(file);
+    session.parameters().print(text);
+  }
+  taut::Parameters parameters;
+  parameters.read(file,
+                  {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=" + name,
+                   "Study/Quantity mean/Quantity=mean reaction", "Study/Quantity motion/Of=" + name,
+                   "Study/Quantity motion/Quantity=history"});
+  parameters.write_nothing();
+  const taut::MeasuredRun run = taut::measure_run(parameters, true, {});
+  ASSERT_EQ(run.quantities.size(), 2u);
+  EXPECT_EQ(run.quantities[0].value, value(said.at("supports").at(name).at("mean")));
+  const std::vector<double> column =
+      read_table(session.folder() + "/supports.csv").at(name + " force [N]");
+  ASSERT_EQ(run.quantities[1].history.size(), column.size());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    EXPECT_NEAR(run.quantities[1].history[i], column[i], 1e-9);
 }
 
 // A sample at a mast belongs to the span after it; the window cuts the span.

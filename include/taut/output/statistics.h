@@ -10,6 +10,7 @@
 #include <taut/output/observer.h>
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/spans.h>
+#include <taut/output/support_figures.h>
 
 #include <iosfwd>
 #include <string>
@@ -30,7 +31,8 @@ namespace taut
 
   /// Statistics of a run: contact forces of sliding contacts, of a strip the sum over its wires,
   /// raw and low-passed, in a window; contact loss; uplift of the probes; open time, largest force
-  /// and impulse of the fixed links; extremes of the forces of supports; certificates.
+  /// and impulse of the fixed links; forces of supports while a sliding contact is in the window,
+  /// or in the whole run without such contacts; certificates.
   class Statistics : public Observer
   {
   public:
@@ -112,16 +114,9 @@ namespace taut
       double largest = 0., smallest = 0., last = 0.;
     };
 
-    /// Force of a support.
-    struct SupportQuantities
-    {
-      std::string name;
-      bool is_moment = false;
-      double start = 0., largest = 0., smallest = 0.;
-    };
-
     void record_links(const StepView &step, double dt);
     void record_certificate(const StepView &step);
+    bool is_in_window() const;
     template <typename Archive>
     void store(Archive &archive);
     void record_contacts(const StepView &step);
@@ -174,7 +169,7 @@ namespace taut
     std::vector<Contact> contacts;
     std::vector<LinkQuantities> links;
     std::vector<ProbeQuantities> probes;
-    std::vector<SupportQuantities> supports;
+    SupportFigures supports;
     std::vector<double> times;
     Certificate worst;
     const ContactMeasures *measures = nullptr; ///< of the last step
