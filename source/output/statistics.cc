@@ -24,6 +24,7 @@ namespace taut
       if (first < scene.links.size() && scene.links[first].to.kind == Attachment::Kind::wire)
         contacts.back().wire = scene.links[first].to.index;
     }
+    sums = contact_sums(parameters.sums, sliding_contacts(scene, rows));
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
       {
@@ -186,9 +187,7 @@ namespace taut
 
   ContactRecord Statistics::sum(const Contact &contact) const
   {
-    ContactRecord result = contact.wires[0];
-    for (std::size_t i = 1; i < contact.wires.size(); ++i)
-      result.add(contact.wires[i]);
+    ContactRecord result = sum_of(contact.wires);
     add_places(contact, result);
     return result;
   }
@@ -220,6 +219,24 @@ namespace taut
     return ContactQuantities::of(wire, times, parameters);
   }
 
+  ContactQuantities Statistics::quantities(const ContactSum &sum) const
+  {
+    std::vector<ContactRecord> records;
+    for (const ContactSum::Part &part : sum.parts)
+      records.push_back(contacts[part.contact].wires[part.wire]);
+    return quantities(contacts[sum.parts[0].contact], sum_of(records));
+  }
+
+  std::vector<std::size_t> Statistics::links_of_sum(const std::string &name) const
+  {
+    std::vector<std::size_t> result;
+    for (const ContactSum &sum : sums)
+      for (const ContactSum::Part &part : sum.parts)
+        if (sum.name == name)
+          result.push_back(contacts[part.contact].of.links[part.wire]);
+    return result;
+  }
+
   std::vector<Statistics::NamedQuantity> Statistics::named_figures(const Contact &contact) const
   {
     const std::string &name = contact.of.name;
@@ -238,6 +255,16 @@ namespace taut
     if (contact.has_height)
       list.push_back({name, "height range", f.height_range, "m"});
     return list;
+  }
+
+  std::vector<Statistics::NamedQuantity> Statistics::named(const ContactSum &sum) const
+  {
+    const ContactQuantities f = quantities(sum);
+    return {{sum.name, "mean", f.filtered.mean, "N"},
+            {sum.name, "standard deviation", f.filtered.deviation, "N"},
+            {sum.name, "maximum", f.filtered.maximum, "N"},
+            {sum.name, "minimum", f.filtered.minimum, "N"},
+            {sum.name, "contact loss", f.loss, "1"}};
   }
 
   std::vector<Statistics::NamedQuantity> Statistics::named(const LinkQuantities &f)
@@ -280,6 +307,11 @@ namespace taut
         list.push_back({contact.of.names[i], "mean share", share.raw.mean, "N"});
         list.push_back({contact.of.names[i], "largest share", share.raw.maximum, "N"});
       }
+    }
+    for (const ContactSum &sum : sums)
+    {
+      const std::vector<NamedQuantity> own = named(sum);
+      list.insert(list.end(), own.begin(), own.end());
     }
     for (const LinkQuantities &f : links)
     {

@@ -92,6 +92,21 @@ namespace taut
       return entry;
     }
 
+    static json of(const Statistics &all, const ContactSum &sum)
+    {
+      const ContactQuantities f = all.quantities(sum);
+      json entry = {{"of", sum.of}, {"samples", f.n_samples}};
+      if (f.n_samples == 0)
+        return entry;
+      json evaluated = quantities_of(table_of_sum(f, false), false);
+      entry["raw"] = quantities_of(table_of_sum(f, true), false);
+      entry["contact_loss"] = evaluated["contact_loss"];
+      evaluated.erase("contact_loss");
+      if (f.is_filtered)
+        entry["filtered"] = evaluated;
+      return entry;
+    }
+
     static void add_figures(const ContactFigures &f, json &entry)
     {
       json &bands = entry["bands"] = json::array();
@@ -240,6 +255,9 @@ namespace taut
     json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
       of_contacts[contact.of.name] = Json::of(*this, contact);
+    json &of_sums = root["sums"] = json::object();
+    for (const ContactSum &sum : sums)
+      of_sums[sum.name] = Json::of(*this, sum);
     json &of_probes = root["probes"] = json::object();
     for (const ProbeQuantities &probe : probes)
       of_probes[probe.name] = quantities_of(table(probe), true);

@@ -77,6 +77,13 @@ namespace taut
         "140 above 200 km/h, and no limit up to it. EN 50367 as quoted by second-hand sources; "
         "check against your edition. There is no least mean force",
         Selection("none|AC|DC 3 kV|DC 1.5 kV"));
+    prm.add_parameter("Sums", sums,
+                      "Sums of contact forces at equal times, 'NAME: CONTACT + CONTACT', separated "
+                      "by commas, of sliding contacts, strips or links of strips. The log, "
+                      "statistics.json, sweeps and studies have mean, standard deviation, maximum "
+                      "and minimum of each, filtered as the other forces, and the share of the "
+                      "time in which all are open. The window is for the position of the first one",
+                      List(Anything(), 0));
     prm.add_parameter("Tables", tables,
                       "Which files to write beside statistics.json. 'histogram': samples of the "
                       "contact force in the window by classes, contact_<name>_histogram.csv. "

@@ -75,6 +75,13 @@ namespace taut
           of_wires.push_back(rows.index_of_link(link));
         return {Source::Kind::force_of_constraints, 0, of_wires};
       }
+    if (const std::vector<std::size_t> links = statistics.links_of_sum(item.of); !links.empty())
+    {
+      std::vector<std::size_t> of_links;
+      for (const std::size_t link : links)
+        of_links.push_back(rows.index_of_link(link));
+      return {Source::Kind::force_of_constraints, 0, of_links};
+    }
     std::size_t row = 0;
     while (row < rows.size() && (!rows[row].is_link() || rows[row].name != item.of))
       ++row;

@@ -174,6 +174,66 @@ TEST(LineFigures, sags_of_spans_are_those_of_strings)
   EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
 }
 
+// Two pantographs, of which the first one is in the window.
+TEST(LineFigures, sums_of_contacts_are_those_of_the_table)
+{
+  const std::string two =
+      line + "Catenary: Pantographs = pantograph, other\nPantograph other: Masses = 7, 15; "
+             "Stiffnesses = 5000, 0; Dampings = 10, 20; Static force = 70; Start = 2; Speed = 180; "
+             "Contact stiffness = 50000\nStatistics: Sums = both: pantograph + other; Filter "
+             "frequency = 0\n";
+  Session session(two, {"Output/Interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const auto sliding = read_table(session.folder() + "/sliding.csv");
+  const auto column = [&](const std::string &name) { return sliding.at(name); };
+  const std::vector<double> place = column("pantograph position [m]"),
+                            first = column("pantograph force [N]"),
+                            second = column("other force [N]");
+  double n = 0., total = 0., squares = 0., least = 1e9, n_open = 0.;
+  std::vector<double> history;
+  for (std::size_t i = 0; i < place.size(); ++i)
+  {
+    const double force = first[i] + second[i];
+    history.push_back(force);
+    if (!(place[i] > 20. - 1e-9 && place[i] < 65. + 1e-9))
+      continue;
+    n += 1.;
+    total += force;
+    squares += force * force;
+    least = std::min(least, force);
+    n_open += force == 0.;
+  }
+  const nlohmann::json &both = said.at("sums").at("both");
+  EXPECT_EQ(both.at("samples").get<double>(), n);
+  EXPECT_NEAR(value(both.at("raw").at("mean")), total / n, 1e-8);
+  EXPECT_NEAR(value(both.at("raw").at("standard_deviation")),
+              std::sqrt(squares / n - total * total / n / n), 1e-6);
+  EXPECT_NEAR(value(both.at("raw").at("minimum")), least, 1e-9);
+  EXPECT_NEAR(value(both.at("contact_loss")), 100. * n_open / n, 1e-9);
+  EXPECT_TRUE(has(session.log(), "Contact force of 'both', the sum of 'pantograph' + 'other', "
+                                 "20.00 to 65.00 m"))
+      << session.log();
+
+  const std::string file = session.folder() + "/scene.prm";
+  {
+    std::ofstream text(file);
+    session.parameters().print(text);
+  }
+  taut::Parameters parameters;
+  parameters.read(file, {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=both",
+                         "Study/Quantity mean/Quantity=mean", "Study/Quantity motion/Of=both",
+                         "Study/Quantity motion/Quantity=history"});
+  parameters.write_nothing();
+  const taut::MeasuredRun run = taut::measure_run(parameters, true, {});
+  ASSERT_EQ(run.quantities.size(), 2u);
+  EXPECT_EQ(run.quantities[0].value, value(both.at("raw").at("mean")));
+  ASSERT_EQ(run.quantities[1].history.size(), history.size());
+  for (std::size_t i = 0; i < history.size(); ++i)
+    EXPECT_NEAR(run.quantities[1].history[i], history[i], 1e-9);
+}
+
 // Expected of strings whose droppers keep the contact wire on its chords: at a mast the shear of
 // the loads of both spans as on beams, and T times the slopes of both chords. In a span between
 // arms droppers carry 15, 10 and 15 m of the contact wire, in a span to an end 10, 10 and 15 m.

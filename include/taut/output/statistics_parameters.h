@@ -29,6 +29,7 @@ namespace taut
     /// empty.
     std::string supply = "none";
 
+    std::vector<std::string> sums;   ///< "NAME: CONTACT + CONTACT", see contact_sums()
     std::vector<std::string> tables; ///< to write: "histogram", "spectrum", "cycles"
     double class_width = 10.;        ///< of the histogram [N]
 

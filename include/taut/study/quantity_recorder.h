@@ -52,7 +52,8 @@ namespace taut
       enum class Kind
       {
         number,               ///< `index` in numbers()
-        force_of_constraints, ///< history of the force of `rows`, of a strip those of its wires
+        force_of_constraints, ///< history of the force of `rows`, of a strip or a sum those of its
+                              ///< links
         probe,                ///< history of probe `index`
         support               ///< history of the force of support point `index`
       } kind = Kind::number;
