@@ -83,7 +83,8 @@ namespace taut
     const double scale = probe.is_displacement ? 1e3 : 1.;
     const std::string unit = (probe.is_displacement ? "m" : "") + probe.unit;
     return {{"Largest", unit, scale * probe.largest,
-             unit == "mm" ? expected_range("Uplift") : std::vector<double>()},
+             unit == "mm" && parameters.has_uplift(probe.name) ? expected_range("Uplift")
+                                                               : std::vector<double>()},
             {"Smallest", unit, scale * probe.smallest}};
   }
 

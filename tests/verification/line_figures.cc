@@ -234,6 +234,30 @@ TEST(LineFigures, sums_of_contacts_are_those_of_the_table)
     EXPECT_NEAR(run.quantities[1].history[i], history[i], 1e-9);
 }
 
+// No largest displacement is negative: the range is left by each probe that it is for.
+TEST(LineFigures, a_range_of_uplift_is_for_the_probes_that_it_names)
+{
+  const std::string probes = line + "Catenary: Uplift positions = 30, 40, 50\n"
+                                    "Statistics/Expected ranges: Uplift = -2, -1\n";
+  const std::string second = "contact wire at 40 m", third = "contact wire at 50 m";
+  const auto judged = [](const Said &said)
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, probe] : said.json.at("probes").items())
+      if (probe.at("largest").count("expected") > 0)
+        names.push_back(name);
+    return names;
+  };
+  const Said all = say(probes, {"Time/End=0.1", "Statistics/Window="}),
+             some =
+                 say(probes, {"Time/End=0.1", "Statistics/Window=",
+                              "Statistics/Expected ranges/Uplift probes=" + third + ", " + second});
+  EXPECT_EQ(judged(all).size(), 3u);
+  EXPECT_EQ(judged(some), (std::vector<std::string>{second, third}));
+  EXPECT_TRUE(has(all.log, "0 quantities inside, 3 outside")) << all.log;
+  EXPECT_TRUE(has(some.log, "0 quantities inside, 2 outside")) << some.log;
+}
+
 // Expected of strings whose droppers keep the contact wire on its chords: at a mast the shear of
 // the loads of both spans as on beams, and T times the slopes of both chords. In a span between
 // arms droppers carry 15, 10 and 15 m of the contact wire, in a span to an end 10, 10 and 15 m.
