@@ -2,7 +2,6 @@
 #include <taut/base/archive.h>
 #include <taut/base/text.h>
 #include <taut/output/low_pass.h>
-#include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
 #include <algorithm>
@@ -13,7 +12,8 @@ namespace taut
 {
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
                          const Constraints &rows)
-      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene))
+      : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene)),
+        supports(scene)
   {
     for (SlidingContact &contact : sliding_contacts(scene, rows))
     {
@@ -24,6 +24,7 @@ namespace taut
       if (first < scene.links.size() && scene.links[first].to.kind == Attachment::Kind::wire)
         contacts.back().wire = scene.links[first].to.index;
     }
+    sums = contact_sums(parameters.sums, sliding_contacts(scene, rows));
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
       {
@@ -35,8 +36,6 @@ namespace taut
       }
     for (const Probe &probe : scene.probes)
       probes.push_back({probe.name, probe.unit(), probe.quantity == Probe::Quantity::displacement});
-    for (const SupportPoint &point : support_points(scene))
-      supports.push_back({point.name, point.is_moment});
   }
 
   void Statistics::record_links(const StepView &step, const double dt)
@@ -91,6 +90,15 @@ namespace taut
     }
   }
 
+  /// Whether a sliding contact is in the window now; true without such contacts.
+  bool Statistics::is_in_window() const
+  {
+    return contacts.empty() ||
+           std::any_of(contacts.begin(), contacts.end(),
+                       [&](const Contact &contact)
+                       { return parameters.is_in_window(*(contact.places.end() - 2)); });
+  }
+
   void Statistics::record(const StepView &step)
   {
     const State &state = step.state;
@@ -110,15 +118,7 @@ namespace taut
       probe.largest = std::max(probe.largest, probe.last);
       probe.smallest = std::min(probe.smallest, probe.last);
     }
-    for (std::size_t i = 0; i < supports.size(); ++i)
-    {
-      SupportQuantities &support = supports[i];
-      const double force = step.supports[i];
-      if (is_start)
-        support.start = support.largest = support.smallest = force;
-      support.largest = std::max(support.largest, force);
-      support.smallest = std::min(support.smallest, force);
-    }
+    supports.record(step.supports, dt, is_in_window());
     if (dt != 0.) // the start is no step
       record_certificate(step);
   }
@@ -161,8 +161,7 @@ namespace taut
     for (SpannedWire &wire : spanned)
       for (Span &span : wire.spans)
         archive &span.sag;
-    for (SupportQuantities &support : supports)
-      archive &support.start &support.largest &support.smallest;
+    archive &supports;
   }
 
   void Statistics::save(OutputArchive &archive)
@@ -188,9 +187,7 @@ namespace taut
 
   ContactRecord Statistics::sum(const Contact &contact) const
   {
-    ContactRecord result = contact.wires[0];
-    for (std::size_t i = 1; i < contact.wires.size(); ++i)
-      result.add(contact.wires[i]);
+    ContactRecord result = sum_of(contact.wires);
     add_places(contact, result);
     return result;
   }
@@ -222,6 +219,24 @@ namespace taut
     return ContactQuantities::of(wire, times, parameters);
   }
 
+  ContactQuantities Statistics::quantities(const ContactSum &sum) const
+  {
+    std::vector<ContactRecord> records;
+    for (const ContactSum::Part &part : sum.parts)
+      records.push_back(contacts[part.contact].wires[part.wire]);
+    return quantities(contacts[sum.parts[0].contact], sum_of(records));
+  }
+
+  std::vector<std::size_t> Statistics::links_of_sum(const std::string &name) const
+  {
+    std::vector<std::size_t> result;
+    for (const ContactSum &sum : sums)
+      for (const ContactSum::Part &part : sum.parts)
+        if (sum.name == name)
+          result.push_back(contacts[part.contact].of.links[part.wire]);
+    return result;
+  }
+
   std::vector<Statistics::NamedQuantity> Statistics::named_figures(const Contact &contact) const
   {
     const std::string &name = contact.of.name;
@@ -240,6 +255,16 @@ namespace taut
     if (contact.has_height)
       list.push_back({name, "height range", f.height_range, "m"});
     return list;
+  }
+
+  std::vector<Statistics::NamedQuantity> Statistics::named(const ContactSum &sum) const
+  {
+    const ContactQuantities f = quantities(sum);
+    return {{sum.name, "mean", f.filtered.mean, "N"},
+            {sum.name, "standard deviation", f.filtered.deviation, "N"},
+            {sum.name, "maximum", f.filtered.maximum, "N"},
+            {sum.name, "minimum", f.filtered.minimum, "N"},
+            {sum.name, "contact loss", f.loss, "1"}};
   }
 
   std::vector<Statistics::NamedQuantity> Statistics::named(const LinkQuantities &f)
@@ -283,6 +308,11 @@ namespace taut
         list.push_back({contact.of.names[i], "largest share", share.raw.maximum, "N"});
       }
     }
+    for (const ContactSum &sum : sums)
+    {
+      const std::vector<NamedQuantity> own = named(sum);
+      list.insert(list.end(), own.begin(), own.end());
+    }
     for (const LinkQuantities &f : links)
     {
       const std::vector<NamedQuantity> own = named(f);
@@ -295,6 +325,8 @@ namespace taut
                                {probe.name, "smallest", probe.smallest, unit},
                                {probe.name, "last", probe.last, unit}});
     }
+    const std::vector<NamedQuantity> reactions = supports.named();
+    list.insert(list.end(), reactions.begin(), reactions.end());
     return list;
   }
 } // namespace taut

@@ -92,6 +92,21 @@ namespace taut
       return entry;
     }
 
+    static json of(const Statistics &all, const ContactSum &sum)
+    {
+      const ContactQuantities f = all.quantities(sum);
+      json entry = {{"of", sum.of}, {"samples", f.n_samples}};
+      if (f.n_samples == 0)
+        return entry;
+      json evaluated = quantities_of(table_of_sum(f, false), false);
+      entry["raw"] = quantities_of(table_of_sum(f, true), false);
+      entry["contact_loss"] = evaluated["contact_loss"];
+      evaluated.erase("contact_loss");
+      if (f.is_filtered)
+        entry["filtered"] = evaluated;
+      return entry;
+    }
+
     static void add_figures(const ContactFigures &f, json &entry)
     {
       json &bands = entry["bands"] = json::array();
@@ -120,6 +135,20 @@ namespace taut
       {
         entry["reflection_at_droppers"] = quantity(line.reflection, "1");
         entry["amplification"] = quantity(line.amplification, "1");
+      }
+      return entry;
+    }
+
+    static json of(const SupportFigures::Figures &f)
+    {
+      json entry = {{"wire", f.wire},
+                    {"position", quantity(f.position, "m")},
+                    {"at_start", quantity(f.at_start, f.unit)}};
+      if (f.n_samples > 0)
+      {
+        entry["mean"] = quantity(f.window.mean, f.unit);
+        entry["maximum"] = quantity(f.window.largest, f.unit);
+        entry["minimum"] = quantity(f.window.least, f.unit);
       }
       return entry;
     }
@@ -226,6 +255,9 @@ namespace taut
     json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
       of_contacts[contact.of.name] = Json::of(*this, contact);
+    json &of_sums = root["sums"] = json::object();
+    for (const ContactSum &sum : sums)
+      of_sums[sum.name] = Json::of(*this, sum);
     json &of_probes = root["probes"] = json::object();
     for (const ProbeQuantities &probe : probes)
       of_probes[probe.name] = quantities_of(table(probe), true);
@@ -237,13 +269,8 @@ namespace taut
         entry[identifier(q.quantity)] = quantity(q.value, q.unit);
     }
     json &of_supports = root["supports"] = json::object();
-    for (const SupportQuantities &support : supports)
-    {
-      const std::string unit = support.is_moment ? "N m" : "N";
-      of_supports[support.name] = {{"start", quantity(support.start, unit)},
-                                   {"largest", quantity(support.largest, unit)},
-                                   {"smallest", quantity(support.smallest, unit)}};
-    }
+    for (const SupportFigures::Figures &support : supports.of_supports())
+      of_supports[support.name] = Json::of(support);
     root["spans"] = Json::of_spans(*this);
     for (const NamedQuantity &q : others)
       root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);

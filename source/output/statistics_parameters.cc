@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
 #include <taut/output/statistics_parameters.h>
 #include <taut/scene/travel.h>
 
@@ -77,6 +78,13 @@ namespace taut
         "140 above 200 km/h, and no limit up to it. EN 50367 as quoted by second-hand sources; "
         "check against your edition. There is no least mean force",
         Selection("none|AC|DC 3 kV|DC 1.5 kV"));
+    prm.add_parameter("Sums", sums,
+                      "Sums of contact forces at equal times, 'NAME: CONTACT + CONTACT', separated "
+                      "by commas, of sliding contacts, strips or links of strips. The log, "
+                      "statistics.json, sweeps and studies have mean, standard deviation, maximum "
+                      "and minimum of each, filtered as the other forces, and the share of the "
+                      "time in which all are open. The window is for the position of the first one",
+                      List(Anything(), 0));
     prm.add_parameter("Tables", tables,
                       "Which files to write beside statistics.json. 'histogram': samples of the "
                       "contact force in the window by classes, contact_<name>_histogram.csv. "
@@ -96,6 +104,11 @@ namespace taut
                                             ? "[1]"
                                             : "[N]"),
                         List(Double(), 0, 2));
+    prm.add_parameter(
+        "Uplift probes", uplift_probes,
+        "Names of the probes that Uplift is for, separated by commas; empty: all that "
+        "record displacements",
+        List(Anything(), 0));
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -109,6 +122,28 @@ namespace taut
         throw EntryError(entry, "it has " + std::to_string(curve->size()) +
                                     " numbers; give 'a, b' for a v^2 + b, or 'a, b, v1, c, d' "
                                     "for c v^2 + d above the speed v1");
+  }
+
+  void StatisticsParameters::check_probes(const Scene &scene) const
+  {
+    const std::string entry = "Statistics/Expected ranges/Uplift probes";
+    std::vector<std::string> known;
+    for (const Probe &probe : scene.probes)
+      if (probe.unit() == "m")
+        known.push_back(probe.name);
+    for (const std::string &name : uplift_probes)
+      if (std::count(known.begin(), known.end(), name) == 0)
+        throw EntryError(entry, "there is no probe '" + name +
+                                    "' that records a displacement in m" + suggestion(name, known));
+    const auto range = expected.find("Uplift");
+    if (!uplift_probes.empty() && (range == expected.end() || range->second.empty()))
+      throw EntryError(entry, "there is no range for them; set Uplift, too");
+  }
+
+  bool StatisticsParameters::has_uplift(const std::string &probe) const
+  {
+    return uplift_probes.empty() ||
+           std::find(uplift_probes.begin(), uplift_probes.end(), probe) != uplift_probes.end();
   }
 
   bool StatisticsParameters::has_table(const std::string &name) const

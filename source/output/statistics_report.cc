@@ -65,12 +65,26 @@ namespace taut
     return rows;
   }
 
+  std::vector<Statistics::Quantity> Statistics::table_of_sum(const ContactQuantities &f,
+                                                             const bool raw)
+  {
+    const Moments &m = raw ? f.raw : f.filtered;
+    std::vector<Quantity> rows = {{"Mean", "N", m.mean},
+                                  {"Standard deviation", "N", m.deviation},
+                                  {"Maximum", "N", m.maximum},
+                                  {"Minimum", "N", m.minimum}};
+    if (!raw)
+      rows.push_back({"Contact loss", "%", 100. * f.loss});
+    return rows;
+  }
+
   std::vector<Statistics::Quantity> Statistics::table(const ProbeQuantities &probe) const
   {
     const double scale = probe.is_displacement ? 1e3 : 1.;
     const std::string unit = (probe.is_displacement ? "m" : "") + probe.unit;
     return {{"Largest", unit, scale * probe.largest,
-             unit == "mm" ? expected_range("Uplift") : std::vector<double>()},
+             unit == "mm" && parameters.has_uplift(probe.name) ? expected_range("Uplift")
+                                                               : std::vector<double>()},
             {"Smallest", unit, scale * probe.smallest}};
   }
 
@@ -119,11 +133,10 @@ namespace taut
     return ", " + fixed(f.begin) + " to " + fixed(f.end) + " m of the window " + whole + " m";
   }
 
-  void Statistics::print_contact(const Contact &contact, std::ostream &out) const
+  void Statistics::print_head(const std::string &of, const ContactQuantities &f,
+                              std::ostream &out) const
   {
-    const ContactQuantities f = quantities(contact);
-    out << "Contact force of '" << contact.of.name << "'" << window_text(f) << " (" << f.n_samples
-        << " samples, ";
+    out << "Contact force of " << of << window_text(f) << " (" << f.n_samples << " samples, ";
     if (f.is_filtered)
       out << "low-passed; unfiltered beside it)\n";
     else if (f.longest_step == 0.)
@@ -132,16 +145,26 @@ namespace taut
       out << "not filtered, and not judged: a filter at " << to_text(parameters.filter_frequency)
           << " Hz needs steps shorter than " << to_text(f.longest_step) << " s)\n";
     if (f.n_samples == 0)
-    {
       out << "  no sample in the window\n";
-      return;
-    }
-    const std::vector<Quantity> rows = table(f, false), raw = table(f, true);
+  }
+
+  void Statistics::print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
+                              const bool judged, std::ostream &out)
+  {
     for (std::size_t i = 0; i < rows.size(); ++i)
       out << "  " << std::left << std::setw(36) << rows[i].name << std::right << std::setw(10)
           << rows[i].value << ' ' << std::left << std::setw(3) << rows[i].unit << std::right
           << std::setw(12) << (i < raw.size() ? fixed(raw[i].value) : "")
-          << comparison(rows[i].value, rows[i].expected, f.are_judged()) << '\n';
+          << comparison(rows[i].value, rows[i].expected, judged) << '\n';
+  }
+
+  void Statistics::print_contact(const Contact &contact, std::ostream &out) const
+  {
+    const ContactQuantities f = quantities(contact);
+    print_head("'" + contact.of.name + "'", f, out);
+    if (f.n_samples == 0)
+      return;
+    print_rows(table(f, false), table(f, true), f.are_judged(), out);
     if (const std::string source = parameters.source_of_largest_mean(); !source.empty())
       out << "  Largest mean at this speed, " << parameters.supply << ": " << source << '\n';
     print_figures(contact, f.loss, out);
@@ -184,6 +207,17 @@ namespace taut
     }
   }
 
+  void Statistics::print_sum(const ContactSum &sum, std::ostream &out) const
+  {
+    const ContactQuantities f = quantities(sum);
+    std::string of = "'" + sum.name + "', the sum of";
+    for (std::size_t i = 0; i < sum.of.size(); ++i)
+      of += (i > 0 ? " + '" : " '") + sum.of[i] + "'";
+    print_head(of, f, out);
+    if (f.n_samples > 0)
+      print_rows(table_of_sum(f, false), table_of_sum(f, true), false, out);
+  }
+
   void Statistics::print_links(std::ostream &out) const
   {
     std::size_t n_unilateral = 0, n_opened = 0;
@@ -212,6 +246,8 @@ namespace taut
     out << std::fixed << std::setprecision(2);
     for (const Contact &contact : contacts)
       print_contact(contact, out);
+    for (const ContactSum &sum : sums)
+      print_sum(sum, out);
     const bool has_rates = std::any_of(probes.begin(), probes.end(),
                                        [](const ProbeQuantities &p) { return !p.is_displacement; });
     if (!probes.empty())

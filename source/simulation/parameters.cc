@@ -349,6 +349,7 @@ namespace taut
     share_places(scene);
     check(scene, end_time);
     statistics.check_window(scene, end_time);
+    statistics.check_probes(scene);
     return scene;
   }
 } // namespace taut

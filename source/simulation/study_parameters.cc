@@ -36,10 +36,11 @@ namespace taut
 
   void StudyParameters::QuantityItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Of", of,
-                      "Name of a sliding contact or strip, another link or a probe, or "
-                      "an item of an observer",
-                      Anything());
+    prm.add_parameter(
+        "Of", of,
+        "Name of a sliding contact or strip, another link, a probe or a support, with "
+        "its number if it has several positions, or an item of an observer",
+        Anything());
     prm.add_parameter(
         "Quantity", quantity,
         "Of a sliding contact: 'mean', 'standard deviation', 'maximum', 'minimum', 'contact "
@@ -49,7 +50,10 @@ namespace taut
         "'mean share', 'largest share'. Of another link: 'open time', 'closed time', 'largest "
         "force', 'impulse', 'largest impulse'; of a dropper also 'smallest force', 'mean force', "
         "'standard deviation of the force', 'slackenings'. Of a probe: 'largest', 'smallest', "
-        "'last'. Of each: 'history', the root mean square over the run of the difference to the "
+        "'last'. Of a support, by its force in the window: 'smallest reaction', 'largest "
+        "reaction', "
+        "'mean reaction', and 'reaction at the start'. Of each: 'history', the root mean square "
+        "over the run of the difference to the "
         "reference, of force or displacement",
         Anything());
     prm.add_parameter("Exact", exact,

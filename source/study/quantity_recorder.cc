@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
+#include <taut/output/reactions.h>
 #include <taut/study/quantity_recorder.h>
 
 #include <algorithm>
@@ -57,8 +58,8 @@ namespace taut
         items.push_back(known[i].item);
     }
     if (quantities.empty())
-      throw EntryError(title + "/Of", "the scene has no contact, link or probe '" + item.of + "'" +
-                                          suggestion(item.of, items));
+      throw EntryError(title + "/Of", "the scene has no contact, link, probe or support '" +
+                                          item.of + "'" + suggestion(item.of, items));
     quantities.push_back("history");
     if (item.quantity != "history")
       throw EntryError(title + "/Quantity", "'" + item.of + "' has no '" + item.quantity + "'" +
@@ -74,14 +75,25 @@ namespace taut
           of_wires.push_back(rows.index_of_link(link));
         return {Source::Kind::force_of_constraints, 0, of_wires};
       }
+    if (const std::vector<std::size_t> links = statistics.links_of_sum(item.of); !links.empty())
+    {
+      std::vector<std::size_t> of_links;
+      for (const std::size_t link : links)
+        of_links.push_back(rows.index_of_link(link));
+      return {Source::Kind::force_of_constraints, 0, of_links};
+    }
     std::size_t row = 0;
     while (row < rows.size() && (!rows[row].is_link() || rows[row].name != item.of))
       ++row;
-    if (row == rows.size())
-      throw EntryError(title + "/Quantity", "'" + item.of +
-                                                "' is what an observer measures, which has no "
-                                                "history; take one of its quantities");
-    return {Source::Kind::force_of_constraints, 0, {row}};
+    if (row < rows.size())
+      return {Source::Kind::force_of_constraints, 0, {row}};
+    const std::vector<SupportPoint> supports = support_points(scene);
+    for (std::size_t i = 0; i < supports.size(); ++i)
+      if (supports[i].name == item.of)
+        return {Source::Kind::support, i};
+    throw EntryError(title + "/Quantity", "'" + item.of +
+                                              "' is what an observer measures, which has no "
+                                              "history; take one of its quantities");
   }
 
   void QuantityRecorder::record(const StepView &step)
@@ -91,6 +103,8 @@ namespace taut
     for (Source &source : sources)
       if (source.kind == Source::Kind::probe)
         source.history.push_back(step.probes[source.index]);
+      else if (source.kind == Source::Kind::support)
+        source.history.push_back(step.supports[source.index]);
       else if (source.kind == Source::Kind::force_of_constraints)
       {
         double force = 0.;

@@ -307,8 +307,8 @@ namespace taut
       text += "," + csv_number(result.quantities[i].value);
     }
     if (!is_same)
-      throw UserError("the scene of this case has other contacts, links or probes than the "
-                      "parameter file: its quantities have no columns");
+      throw UserError("the scene of this case has other contacts, links, probes or supports "
+                      "than the parameter file: its quantities have no columns");
     return text + "," + csv_number(result.worst.complementarity) + "," +
            csv_number(result.worst.balance);
   }

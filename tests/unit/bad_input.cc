@@ -306,7 +306,7 @@ TEST_F(BadInput, EachMistakeIsNamedWithItsPlaceAndRemedy)
     if (std::getenv("TAUT_PRINT_MESSAGES"))
       std::printf("%s\n  %s\n", c.name.c_str(), message.c_str());
   }
-  EXPECT_EQ(names.size(), 236u);
+  EXPECT_EQ(names.size(), 242u);
 }
 
 TEST_F(BadInput, FilesThatCannotBeRead)

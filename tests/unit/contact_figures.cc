@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/output/contact_figures.h>
+#include <taut/output/contact_sums.h>
 #include <taut/output/link_force.h>
 #include <taut/output/power_spectrum.h>
 #include <taut/output/rainflow.h>
@@ -64,6 +65,76 @@ TEST(ContactFigures, bands_have_the_deviation_of_the_waves_in_them)
         << band.from << " to " << band.to << " Hz";
   }
   EXPECT_NEAR(f.height_range, .03, 1e-9);
+}
+
+// Two contacts with 100 N and opposite waves of 8 N at 5 Hz, and equal ones of 3 N at 20 Hz, for 20
+// s at 1 ms. Expected: the slow waves cancel, and the fast ones are twice as large, damped by the
+// filter.
+TEST(ContactFigures, a_sum_has_the_waves_of_its_contacts)
+{
+  std::vector<double> times;
+  ContactRecord one, two;
+  for (int i = 0; i <= 20000; ++i)
+  {
+    const double t = 1e-3 * i, slow = 8. * std::sin(10. * pi * t),
+                 fast = 3. * std::sin(40. * pi * t);
+    times.push_back(t);
+    one.position.push_back(10. * t);
+    two.position.push_back(10. * t - 50.);
+    one.force.push_back(100. + slow + fast);
+    two.force.push_back(100. - slow + fast);
+  }
+  one.mean_force = one.force;
+  two.mean_force = two.force;
+  StatisticsParameters parameters;
+  parameters.window = {50., 149.99};
+  const ContactQuantities f = ContactQuantities::of(sum_of({one, two}), times, parameters);
+  EXPECT_EQ(f.n_samples, 10000u);
+  EXPECT_TRUE(f.is_filtered);
+  EXPECT_NEAR(f.filtered.mean, 200., 1e-6);
+  EXPECT_NEAR(f.filtered.deviation, 6. * damping(20., 20.) / std::sqrt(2.), 2e-2);
+  EXPECT_NEAR(f.raw.deviation, 6. / std::sqrt(2.), 1e-9);
+  EXPECT_NEAR(f.raw.maximum, 206., .1);
+  EXPECT_NEAR(f.raw.minimum, 194., .1);
+}
+
+// Expected by hand: both are open in one sample of five.
+TEST(ContactFigures, a_sum_is_lost_where_all_its_contacts_are_open)
+{
+  StatisticsParameters parameters;
+  parameters.filter_frequency = 0.;
+  const ContactRecord one = {{0., 1., 2., 3., 4.}, {0., 10., 0., 0., 30.}, {0., 10., 0., 0., 40.}},
+                      two = {{9., 9., 9., 9., 9.}, {20., 0., 0., 5., 10.}, {20., 0., 0., 5., 10.}};
+  const ContactQuantities f =
+      ContactQuantities::of(sum_of({one, two}), {0., 1., 2., 3., 4.}, parameters);
+  EXPECT_NEAR(f.loss, .2, 1e-12);
+  EXPECT_NEAR(f.raw.mean, 15., 1e-12);
+  EXPECT_NEAR(f.raw.deviation, std::sqrt((25. + 25. + 225. + 100. + 625.) / 5.), 1e-12);
+  EXPECT_EQ(f.raw.minimum, 0.);
+  EXPECT_EQ(f.raw.maximum, 50.);
+}
+
+TEST(ContactFigures, sums_name_contacts_strips_and_their_links)
+{
+  const std::vector<SlidingContact> contacts = {
+      {"head", {0}, {"head"}}, {"strip", {1, 2}, {"strip on a", "strip on b"}, true}};
+  const std::vector<ContactSum> sums =
+      contact_sums({"all: head + strip", "part: strip on b+head"}, contacts);
+  ASSERT_EQ(sums.size(), 2u);
+  EXPECT_EQ(sums[0].name, "all");
+  ASSERT_EQ(sums[0].parts.size(), 3u);
+  EXPECT_EQ(sums[0].parts[2].contact, 1u);
+  EXPECT_EQ(sums[0].parts[2].wire, 1u);
+  ASSERT_EQ(sums[1].parts.size(), 2u);
+  EXPECT_EQ(sums[1].parts[0].wire, 1u);
+  for (const std::vector<std::string> &bad :
+       std::vector<std::vector<std::string>>{{"head + strip"},
+                                             {": head"},
+                                             {"all: head +"},
+                                             {"all: head + strp"},
+                                             {"all: strip + strip on a"},
+                                             {"all: head", "all: strip"}})
+    EXPECT_THROW(contact_sums(bad, contacts), EntryError) << bad[0];
 }
 
 // Expected: four losses of 4, 6, 12 and 30 samples of 1 ms.

@@ -4,6 +4,7 @@
 #include "scene_tests.h"
 
 #include <taut/output/spans.h>
+#include <taut/study/measured_run.h>
 #include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
@@ -137,6 +138,14 @@ TEST(LineFigures, columns_of_sweeps_are_the_statistics)
       n_slackenings += key == "slackenings" ? value(quantity) : 0.;
     }
   EXPECT_EQ(n_compared, 12 + 6 * 9);
+  const std::pair<const char *, const char *> reactions[] = {{"reaction at the start", "at_start"},
+                                                             {"smallest reaction", "minimum"},
+                                                             {"largest reaction", "maximum"},
+                                                             {"mean reaction", "mean"}};
+  EXPECT_GT(said.at("supports").size(), 2u);
+  for (const auto &[name, support] : said.at("supports").items())
+    for (const auto &[title, key] : reactions)
+      compare(name + ": " + title + " [N]", value(support.at(key)));
   EXPECT_GT(n_slackenings, 0.);
 }
 
@@ -163,6 +172,179 @@ TEST(LineFigures, sags_of_spans_are_those_of_strings)
   const double moment = .8 * g * 40. * 40. / 8. + 250. * g;
   EXPECT_NEAR(value(messenger[1].at("sag")), 1e3 * moment / 12000., 1e-6);
   EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
+}
+
+// Two pantographs, of which the first one is in the window.
+TEST(LineFigures, sums_of_contacts_are_those_of_the_table)
+{
+  const std::string two =
+      line + "Catenary: Pantographs = pantograph, other\nPantograph other: Masses = 7, 15; "
+             "Stiffnesses = 5000, 0; Dampings = 10, 20; Static force = 70; Start = 2; Speed = 180; "
+             "Contact stiffness = 50000\nStatistics: Sums = both: pantograph + other; Filter "
+             "frequency = 0\n";
+  Session session(two, {"Output/Interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const auto sliding = read_table(session.folder() + "/sliding.csv");
+  const auto column = [&](const std::string &name) { return sliding.at(name); };
+  const std::vector<double> place = column("pantograph position [m]"),
+                            first = column("pantograph force [N]"),
+                            second = column("other force [N]");
+  double n = 0., total = 0., squares = 0., least = 1e9, n_open = 0.;
+  std::vector<double> history;
+  for (std::size_t i = 0; i < place.size(); ++i)
+  {
+    const double force = first[i] + second[i];
+    history.push_back(force);
+    if (!(place[i] > 20. - 1e-9 && place[i] < 65. + 1e-9))
+      continue;
+    n += 1.;
+    total += force;
+    squares += force * force;
+    least = std::min(least, force);
+    n_open += force == 0.;
+  }
+  const nlohmann::json &both = said.at("sums").at("both");
+  EXPECT_EQ(both.at("samples").get<double>(), n);
+  EXPECT_NEAR(value(both.at("raw").at("mean")), total / n, 1e-8);
+  EXPECT_NEAR(value(both.at("raw").at("standard_deviation")),
+              std::sqrt(squares / n - total * total / n / n), 1e-6);
+  EXPECT_NEAR(value(both.at("raw").at("minimum")), least, 1e-9);
+  EXPECT_NEAR(value(both.at("contact_loss")), 100. * n_open / n, 1e-9);
+  EXPECT_TRUE(has(session.log(), "Contact force of 'both', the sum of 'pantograph' + 'other', "
+                                 "20.00 to 65.00 m"))
+      << session.log();
+
+  const std::string file = session.folder() + "/scene.prm";
+  {
+    std::ofstream text(file);
+    session.parameters().print(text);
+  }
+  taut::Parameters parameters;
+  parameters.read(file, {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=both",
+                         "Study/Quantity mean/Quantity=mean", "Study/Quantity motion/Of=both",
+                         "Study/Quantity motion/Quantity=history"});
+  parameters.write_nothing();
+  const taut::MeasuredRun run = taut::measure_run(parameters, true, {});
+  ASSERT_EQ(run.quantities.size(), 2u);
+  EXPECT_EQ(run.quantities[0].value, value(both.at("raw").at("mean")));
+  ASSERT_EQ(run.quantities[1].history.size(), history.size());
+  for (std::size_t i = 0; i < history.size(); ++i)
+    EXPECT_NEAR(run.quantities[1].history[i], history[i], 1e-9);
+}
+
+// No largest displacement is negative: the range is left by each probe that it is for.
+TEST(LineFigures, a_range_of_uplift_is_for_the_probes_that_it_names)
+{
+  const std::string probes = line + "Catenary: Uplift positions = 30, 40, 50\n"
+                                    "Statistics/Expected ranges: Uplift = -2, -1\n";
+  const std::string second = "contact wire at 40 m", third = "contact wire at 50 m";
+  const auto judged = [](const Said &said)
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, probe] : said.json.at("probes").items())
+      if (probe.at("largest").count("expected") > 0)
+        names.push_back(name);
+    return names;
+  };
+  const Said all = say(probes, {"Time/End=0.1", "Statistics/Window="}),
+             some =
+                 say(probes, {"Time/End=0.1", "Statistics/Window=",
+                              "Statistics/Expected ranges/Uplift probes=" + third + ", " + second});
+  EXPECT_EQ(judged(all).size(), 3u);
+  EXPECT_EQ(judged(some), (std::vector<std::string>{second, third}));
+  EXPECT_TRUE(has(all.log, "0 quantities inside, 3 outside")) << all.log;
+  EXPECT_TRUE(has(some.log, "0 quantities inside, 2 outside")) << some.log;
+}
+
+// Expected of strings whose droppers keep the contact wire on its chords: at a mast the shear of
+// the loads of both spans as on beams, and T times the slopes of both chords. In a span between
+// arms droppers carry 15, 10 and 15 m of the contact wire, in a span to an end 10, 10 and 15 m.
+TEST(LineFigures, reactions_at_rest_are_those_of_strings)
+{
+  const Said said =
+      say(line + "Pantograph pantograph: -\n"
+                 "Catenary: Pantographs =; Number of spans = 3; Encumbrance = 1.2, 1.4, 1.4, 1.2\n"
+                 "Time: End = 2e-3\nStatistics: Window =\n");
+  const double g = 9.81, messenger_end = .8 * 20. * g + 16.25 * g - 12000. * .2 / 40.,
+               messenger_mast = .8 * 40. * g + (18.75 + 20.) * g + 12000. * .2 / 40.;
+  int n = 0;
+  for (const auto &[name, support] : said.json.at("supports").items())
+  {
+    if (support.at("wire") != "messenger")
+      continue;
+    const double place = value(support.at("position"));
+    const bool is_end = place < 1. || place > 119.;
+    for (const char *const figure : {"at_start", "minimum", "maximum", "mean"})
+    {
+      EXPECT_NEAR(value(support.at(figure)), is_end ? messenger_end : messenger_mast, 1e-6)
+          << name << ' ' << figure;
+      EXPECT_EQ(support.at(figure).at("unit"), "N") << name;
+    }
+    ++n;
+  }
+  EXPECT_EQ(n, 4);
+}
+
+TEST(LineFigures, reactions_are_those_of_the_table)
+{
+  Session session(line, {"Output/Interval=0", "Output/Link interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const auto supports = read_table(session.folder() + "/supports.csv"),
+             sliding = read_table(session.folder() + "/sliding.csv");
+  const std::vector<double> &place = sliding.at("pantograph position [m]");
+  EXPECT_EQ(said.at("supports").size(), supports.size() - 1);
+  for (const auto &[name, support] : said.at("supports").items())
+  {
+    const std::vector<double> &force = supports.at(name + " force [N]");
+    ASSERT_EQ(force.size(), place.size());
+    double n = 0., sum = 0., least = 1e9, largest = -1e9;
+    for (std::size_t i = 0; i < force.size(); ++i)
+      if (place[i] > 20. - 1e-9 && place[i] < 65. + 1e-9)
+      {
+        n += 1.;
+        sum += force[i];
+        least = std::min(least, force[i]);
+        largest = std::max(largest, force[i]);
+      }
+    ASSERT_GT(n, 0.);
+    EXPECT_LT(n, place.size());
+    EXPECT_NEAR(value(support.at("at_start")), force.at(0), 1e-9) << name;
+    EXPECT_NEAR(value(support.at("mean")), sum / n, 1e-8) << name;
+    EXPECT_NEAR(value(support.at("minimum")), least, 1e-9) << name;
+    EXPECT_NEAR(value(support.at("maximum")), largest, 1e-9) << name;
+  }
+}
+
+// Of a study: the same number, and the column of the table as a history.
+TEST(LineFigures, reactions_are_quantities_of_studies)
+{
+  Session session(line, {"Output/Link interval=0"});
+  session.run();
+  nlohmann::json said;
+  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const std::string name = "messenger at masts", file = session.folder() + "/scene.prm";
+  {
+    std::ofstream text(file);
+    session.parameters().print(text);
+  }
+  taut::Parameters parameters;
+  parameters.read(file,
+                  {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=" + name,
+                   "Study/Quantity mean/Quantity=mean reaction", "Study/Quantity motion/Of=" + name,
+                   "Study/Quantity motion/Quantity=history"});
+  parameters.write_nothing();
+  const taut::MeasuredRun run = taut::measure_run(parameters, true, {});
+  ASSERT_EQ(run.quantities.size(), 2u);
+  EXPECT_EQ(run.quantities[0].value, value(said.at("supports").at(name).at("mean")));
+  const std::vector<double> column =
+      read_table(session.folder() + "/supports.csv").at(name + " force [N]");
+  ASSERT_EQ(run.quantities[1].history.size(), column.size());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    EXPECT_NEAR(run.quantities[1].history[i], column[i], 1e-9);
 }
 
 // A sample at a mast belongs to the span after it; the window cuts the span.

@@ -4,12 +4,14 @@
 
 #include <taut/output/contact_figures.h>
 #include <taut/output/contact_quantities.h>
+#include <taut/output/contact_sums.h>
 #include <taut/output/line_constants.h>
 #include <taut/output/link_force.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/spans.h>
+#include <taut/output/support_figures.h>
 
 #include <iosfwd>
 #include <string>
@@ -29,11 +31,13 @@ namespace taut
   };
 
   /// Statistics of a run: contact forces of sliding contacts, of a strip the sum over its wires,
-  /// raw and low-passed, in a window; contact loss; uplift of the probes; open time, largest force
-  /// and impulse of the fixed links; extremes of the forces of supports; certificates.
+  /// raw and low-passed, in a window; contact loss; the same of sums of contacts; uplift of the
+  /// probes; open time, largest force and impulse of the fixed links; forces of supports while a
+  /// sliding contact is in the window, or in the whole run without such contacts; certificates.
   class Statistics : public Observer
   {
   public:
+    /// Throws the errors of contact_sums().
     Statistics(const StatisticsParameters &parameters, const Scene &scene, const Constraints &rows);
 
     void record(const StepView &step) override;
@@ -55,6 +59,9 @@ namespace taut
     {
       return quantities(contacts[contact], contacts[contact].wires[wire]);
     }
+
+    /// Links of the scene whose forces a sum adds up; empty: there is no such sum.
+    std::vector<std::size_t> links_of_sum(const std::string &name) const;
 
     /// Largest displacement of a probe [m, rad].
     double largest_displacement(std::size_t probe) const { return probes[probe].largest; }
@@ -112,16 +119,9 @@ namespace taut
       double largest = 0., smallest = 0., last = 0.;
     };
 
-    /// Force of a support.
-    struct SupportQuantities
-    {
-      std::string name;
-      bool is_moment = false;
-      double start = 0., largest = 0., smallest = 0.;
-    };
-
     void record_links(const StepView &step, double dt);
     void record_certificate(const StepView &step);
+    bool is_in_window() const;
     template <typename Archive>
     void store(Archive &archive);
     void record_contacts(const StepView &step);
@@ -132,10 +132,12 @@ namespace taut
     ContactRecord judged(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
+    ContactQuantities quantities(const ContactSum &sum) const;
 
     /// What the file and named_quantities() have of an item.
     std::vector<NamedQuantity> named_figures(const Contact &contact) const;
     static std::vector<NamedQuantity> named(const LinkQuantities &link);
+    std::vector<NamedQuantity> named(const ContactSum &sum) const;
 
     /// A row of a table.
     struct Quantity
@@ -147,6 +149,9 @@ namespace taut
 
     /// Rows of a sliding contact: raw force if @p raw, otherwise filtered force and loss.
     std::vector<Quantity> table(const ContactQuantities &quantities, bool raw) const;
+
+    /// Rows of a sum, as those of a sliding contact, without expected ranges.
+    static std::vector<Quantity> table_of_sum(const ContactQuantities &quantities, bool raw);
 
     /// Rows with the largest and smallest displacement of a probe.
     std::vector<Quantity> table(const ProbeQuantities &probe) const;
@@ -163,18 +168,24 @@ namespace taut
     Verdict verdict() const;
     class Json; ///< parts of the file
     std::string window_text(const ContactQuantities &quantities) const;
+    void print_head(const std::string &of, const ContactQuantities &quantities,
+                    std::ostream &out) const;
+    static void print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
+                           bool judged, std::ostream &out);
     void print_contact(const Contact &contact, std::ostream &out) const;
     void print_figures(const Contact &contact, double loss, std::ostream &out) const;
     void print_shares(const Contact &contact, std::ostream &out) const;
+    void print_sum(const ContactSum &sum, std::ostream &out) const;
     void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;
     std::vector<LineConstants> lines;
     std::vector<SpannedWire> spanned;
     std::vector<Contact> contacts;
+    std::vector<ContactSum> sums;
     std::vector<LinkQuantities> links;
     std::vector<ProbeQuantities> probes;
-    std::vector<SupportQuantities> supports;
+    SupportFigures supports;
     std::vector<double> times;
     Certificate worst;
     const ContactMeasures *measures = nullptr; ///< of the last step

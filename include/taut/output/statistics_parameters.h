@@ -29,11 +29,15 @@ namespace taut
     /// empty.
     std::string supply = "none";
 
+    std::vector<std::string> sums;   ///< "NAME: CONTACT + CONTACT", see contact_sums()
     std::vector<std::string> tables; ///< to write: "histogram", "spectrum", "cycles"
     double class_width = 10.;        ///< of the histogram [N]
 
     /// Lower and upper bound by quantity; empty: no bounds.
     std::map<std::string, std::vector<double>> expected;
+
+    /// Names of the probes that the range of "Uplift" is for; empty: all displacements in m.
+    std::vector<std::string> uplift_probes;
 
     /// Declares the members in subsection "Statistics".
     void declare_parameters(dealii::ParameterHandler &prm);
@@ -52,6 +56,13 @@ namespace taut
 
     /// Throws an EntryError if no sliding contact enters the window before @p end_time [s].
     void check_window(const Scene &scene, double end_time) const;
+
+    /// Throws an EntryError if the scene lacks one of the `uplift_probes`, if one of them records
+    /// no displacement in m, or if there is no range for them.
+    void check_probes(const Scene &scene) const;
+
+    /// Whether the range of "Uplift" is for a probe.
+    bool has_uplift(const std::string &probe) const;
 
     /// Whether a position lies in the window, up to rounding.
     bool is_in_window(double position) const;

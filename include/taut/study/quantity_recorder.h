@@ -52,8 +52,10 @@ namespace taut
       enum class Kind
       {
         number,               ///< `index` in numbers()
-        force_of_constraints, ///< history of the force of `rows`, of a strip those of its wires
-        probe                 ///< history of probe `index`
+        force_of_constraints, ///< history of the force of `rows`, of a strip or a sum those of its
+                              ///< links
+        probe,                ///< history of probe `index`
+        support               ///< history of the force of support point `index`
       } kind = Kind::number;
       std::size_t index = 0;
       std::vector<std::size_t> rows = {};

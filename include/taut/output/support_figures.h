@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_support_figures_h
+#define taut_support_figures_h
+
+#include <taut/output/link_force.h>
+#include <taut/output/named_quantity.h>
+#include <taut/scene/scene.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// Figures of the forces or moments of supports on their wires, with the signs of Reactions.
+  class SupportFigures
+  {
+  public:
+    /// One of the support_points().
+    struct Figures
+    {
+      std::string name, wire;
+      double position = 0.;  ///< on its wire [m]
+      std::string unit;      ///< "N" or "N m"
+      double at_start = 0.;  ///< of the run
+      LinkForce window = {}; ///< over the steps in the window, by their lengths
+      std::size_t n_samples = 0;
+    };
+
+    SupportFigures(const Scene &scene);
+
+    /// Adds the @p reactions [N, N m] of the end of a step of @p dt [s]; 0: of the start.
+    void record(const std::vector<double> &reactions, double dt, bool in_window);
+
+    const std::vector<Figures> &of_supports() const { return figures; }
+
+    /// "reaction at the start", "smallest reaction", "largest reaction" and "mean reaction" of each
+    /// support; without a step in the window all but the first are not a number.
+    std::vector<NamedQuantity> named() const;
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      for (Figures &f : figures)
+        archive &f.at_start &f.window &f.n_samples;
+    }
+
+  private:
+    std::vector<Figures> figures;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/reactions.h>
+#include <taut/output/support_figures.h>
+
+#include <limits>
+
+namespace taut
+{
+  SupportFigures::SupportFigures(const Scene &scene)
+  {
+    for (const SupportPoint &point : support_points(scene))
+      figures.push_back({point.name, scene.wires[scene.supports[point.support].wire].name,
+                         point.position, point.is_moment ? "N m" : "N"});
+  }
+
+  void SupportFigures::record(const std::vector<double> &reactions, const double dt,
+                              const bool in_window)
+  {
+    for (std::size_t i = 0; i < figures.size(); ++i)
+    {
+      Figures &f = figures[i];
+      if (dt == 0.)
+        f.at_start = reactions[i];
+      if (!in_window)
+        continue;
+      if (f.n_samples++ == 0)
+        f.window.start(reactions[i]);
+      if (dt > 0.)
+        f.window.add(reactions[i], dt);
+    }
+  }
+
+  std::vector<NamedQuantity> SupportFigures::named() const
+  {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    std::vector<NamedQuantity> list;
+    for (const Figures &f : figures)
+    {
+      const auto in_window = [&](const double value) { return f.n_samples > 0 ? value : none; };
+      list.insert(list.end(), {{f.name, "reaction at the start", f.at_start, f.unit},
+                               {f.name, "smallest reaction", in_window(f.window.least), f.unit},
+                               {f.name, "largest reaction", in_window(f.window.largest), f.unit},
+                               {f.name, "mean reaction", in_window(f.window.mean), f.unit}});
+    }
+    return list;
+  }
+} // namespace taut
