@@ -228,14 +228,15 @@ TEST(CablePlaces, a_sketch_of_a_guyed_mast_fits_on_a_page)
 // 1 m with 4 edges, on a rigid arm of 1 m.
 TEST(CablePlaces, a_sketch_of_bodies_shows_their_outlines)
 {
-  Session session("Generator = network; Gravity = 0, 0; Start = undeformed\n"
-                  "Body square: Type = solid; Young's modulus = 1e9; Density = 1000\n"
-                  "Body square/Mesh: Generator = hyper_rectangle; Arguments = 0, 1 : 1, 2\n"
-                  "Body arm: Type = rigid body; Mass = 1; Centre = 0.5, 0.5; "
-                  "Moments of inertia = 1, 1, 1\n"
-                  "Link foot: Type = joint; From = ground; To = arm @ 0, 0; Direction = 0, 1\n"
-                  "Link top: Type = joint; From = arm @ 0, 1; To = square @ 0, 1; "
-                  "Direction = 0, 1\nTime: End = 0; Step = 0.01\n");
+  Session session(
+      "Generator = network; Gravity = 0, 0; Start = undeformed\n"
+      "Body square: Type = solid; Young's modulus = 1e9; Density = 1000\n"
+      "Body square/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 1, 1 : 0, 1 : 1, 2\n"
+      "Body arm: Type = rigid body; Mass = 1; Centre = 0.5, 0.5; "
+      "Moments of inertia = 1, 1, 1\n"
+      "Link foot: Type = joint; From = ground; To = arm @ 0, 0; Direction = 0, 1\n"
+      "Link top: Type = joint; From = arm @ 0, 1; To = square @ 0, 1; "
+      "Direction = 0, 1\nTime: End = 0; Step = 0.01\n");
   const ScenePlaces places =
       places_in_space(session.simulation().scene(), session.simulation().structure());
   write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
