@@ -118,6 +118,29 @@ TEST(Messages, about_a_name_in_a_long_list_are_short_and_begin_with_the_reason)
   EXPECT_LT(of_end.size(), 500u);
 }
 
+// A constant force on a mass and a spring: from 0 to 2 F/k within half a period, 2 ms or 2 us here.
+// A stop beyond is open all the time.
+TEST(Messages, of_small_scenes_keep_their_digits)
+{
+  const auto log = [](const std::string &load, const std::string &mass, const std::string &time)
+  {
+    return log_of("Gravity = 0, 0\nStart = undeformed\n"
+                  "Mass tip: Position = 0, 0; Motions = y; Mass = " +
+                  mass +
+                  "\nSpring spring: From = ground; To = tip; Stiffness = 1\n"
+                  "Link stop: Type = stop; From = tip; To = ground; Direction = 0, 1; Gap = 1; "
+                  "Stiffness = 100\nLoad push: On = tip; Magnitude = " +
+                  load + "\nProbe tip: Point = tip\nTime: Scheme = Newmark; " + time + "\n");
+  };
+  const std::string small = log("1.234e-7", "4.0528473e-13", "Step = 1e-8; End = 2e-6"),
+                    large = log("1.234e-4", "4.0528473e-7", "Step = 1e-5; End = 2e-3");
+  const std::string name = "  tip                                 ";
+  EXPECT_TRUE(has(small, name + "  0.000247         0 mm")) << small;
+  EXPECT_TRUE(has(small, "longest 'stop', 2e-06 s")) << small;
+  EXPECT_TRUE(has(large, name + "      0.25      0.00 mm")) << large;
+  EXPECT_TRUE(has(large, "longest 'stop', 0.0020 s")) << large;
+}
+
 TEST(ResultsFolder, of_a_run_on_its_way_is_refused_to_another)
 {
   Session first(line + "Support ends: Wire = line; Positions = 0, 10\n");
