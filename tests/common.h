@@ -71,13 +71,13 @@ namespace verification
     std::map<std::string, std::vector<double>> table;
     while (std::getline(in, line))
     {
-      const std::vector<std::string> cells = cells_of(line);
+      const std::vector<std::string> cells = cells_of(line + ','); // the last one may be empty
       EXPECT_EQ(cells.size(), head.size()) << line;
       for (std::size_t i = 0; i < std::min(head.size(), cells.size()); ++i)
       {
         char *end = nullptr;
         const double value = std::strtod(cells[i].c_str(), &end);
-        table[head[i]].push_back(*end == '\0' ? value : NAN);
+        table[head[i]].push_back(end != cells[i].c_str() && *end == '\0' ? value : NAN);
       }
     }
     return table;

@@ -21,15 +21,47 @@ namespace taut
       return to_text(std::fixed, std::setprecision(2), value);
     }
 
+    /// With two decimals, or with three digits in a table of small numbers, whose size is at most
+    /// @p largest; below rounding it is zero.
+    std::string shown(const double value, const double largest)
+    {
+      constexpr double least_fixed = .1, rounding = 1e-9;
+      return largest > rounding && largest < least_fixed ? to_text(std::setprecision(3), value)
+                                                         : fixed(value);
+    }
+
+    /// A time with four decimals, or with three digits if it is short.
+    std::string duration(const double seconds)
+    {
+      constexpr double least_fixed = 1e-3;
+      return seconds < least_fixed ? to_text(std::setprecision(3), seconds)
+                                   : to_text(std::fixed, std::setprecision(4), seconds);
+    }
+
+    double size_of(const std::vector<double> &numbers)
+    {
+      double size = 0.;
+      for (const double number : numbers)
+        size = std::max(size, std::fabs(number));
+      return size;
+    }
+
+    /// Of the forces of a table.
+    double size_of(const ContactQuantities &f)
+    {
+      return size_of(std::vector<double>{f.raw.maximum, f.raw.minimum});
+    }
+
     /// "   expected 1.00 to 2.00   inside"; empty without a range.
-    std::string comparison(const double value, const std::vector<double> &range, const bool judged)
+    std::string comparison(const double value, const std::vector<double> &range, const bool judged,
+                           const double largest)
     {
       if (range.empty())
         return "";
-      const std::string bounds = !std::isfinite(range[0]) ? "at most " + fixed(range[1])
-                                 : !std::isfinite(range[1])
-                                     ? "at least " + fixed(range[0])
-                                     : fixed(range[0]) + " to " + fixed(range[1]);
+      const std::string low = shown(range[0], largest), high = shown(range[1], largest),
+                        bounds = !std::isfinite(range[0])   ? "at most " + high
+                                 : !std::isfinite(range[1]) ? "at least " + low
+                                                            : low + " to " + high;
       return "   expected " + bounds + "   " +
              (!judged                   ? "not judged"
               : is_inside(value, range) ? "inside"
@@ -125,12 +157,15 @@ namespace taut
   {
     if (parameters.window.size() < 2)
       return "";
-    const std::string whole = fixed(parameters.window[0]) + " to " + fixed(parameters.window[1]);
+    const double size = size_of(parameters.window);
+    const auto from_to = [&](const double from, const double to)
+    { return shown(from, size) + " to " + shown(to, size) + " m"; };
+    const std::string whole = from_to(parameters.window[0], parameters.window[1]);
     if (f.is_complete)
-      return ", " + whole + " m";
+      return ", " + whole;
     if (f.n_samples == 0)
-      return ", nothing of the window " + whole + " m";
-    return ", " + fixed(f.begin) + " to " + fixed(f.end) + " m of the window " + whole + " m";
+      return ", nothing of the window " + whole;
+    return ", " + from_to(f.begin, f.end) + " of the window " + whole;
   }
 
   void Statistics::print_head(const std::string &of, const ContactQuantities &f,
@@ -149,13 +184,17 @@ namespace taut
   }
 
   void Statistics::print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
-                              const bool judged, std::ostream &out)
+                              const double size, const bool judged, std::ostream &out)
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const double own_size = rows[i].unit == "N" ? size : 1.;
       out << "  " << std::left << std::setw(36) << rows[i].name << std::right << std::setw(10)
-          << rows[i].value << ' ' << std::left << std::setw(3) << rows[i].unit << std::right
-          << std::setw(12) << (i < raw.size() ? fixed(raw[i].value) : "")
-          << comparison(rows[i].value, rows[i].expected, judged) << '\n';
+          << shown(rows[i].value, own_size) << ' ' << std::left << std::setw(3)
+          << (rows[i].unit == "1" ? "" : rows[i].unit) << std::right << std::setw(12)
+          << (i < raw.size() ? shown(raw[i].value, own_size) : "")
+          << comparison(rows[i].value, rows[i].expected, judged, own_size) << '\n';
+    }
   }
 
   void Statistics::print_contact(const Contact &contact, std::ostream &out) const
@@ -164,27 +203,28 @@ namespace taut
     print_head("'" + contact.of.name + "'", f, out);
     if (f.n_samples == 0)
       return;
-    print_rows(table(f, false), table(f, true), f.are_judged(), out);
+    print_rows(table(f, false), table(f, true), size_of(f), f.are_judged(), out);
     if (const std::string source = parameters.source_of_largest_mean(); !source.empty())
       out << "  Largest mean at this speed, " << parameters.supply << ": " << source << '\n';
-    print_figures(contact, f.loss, out);
+    print_figures(contact, f, out);
     if (contact.of.is_strip)
-      print_shares(contact, out);
+      print_shares(contact, size_of(f), out);
   }
 
-  void Statistics::print_figures(const Contact &contact, const double loss, std::ostream &out) const
+  void Statistics::print_figures(const Contact &contact, const ContactQuantities &of,
+                                 std::ostream &out) const
   {
     const ContactFigures f = figures(contact);
     const auto begin = [&](const std::string &text) -> std::ostream &
     { return out << "  " << std::left << std::setw(36) << text << std::right; };
     begin("Standard deviation at 0-2, 0-5, 5-20 Hz");
     for (std::size_t i = 0; i < 3; ++i)
-      out << (f.bands[i].is_resolved ? ' ' + fixed(f.bands[i].deviation) : " -");
+      out << (f.bands[i].is_resolved ? ' ' + shown(f.bands[i].deviation, size_of(of)) : " -");
     out << " N\n";
     if (contact.has_height)
       begin("Range of the height of the contact")
-          << std::setw(10) << 1e3 * f.height_range << " mm\n";
-    if (!(loss > 0.))
+          << std::setw(10) << shown(1e3 * f.height_range, 1e3 * f.height_range) << " mm\n";
+    if (!(of.loss > 0.))
       return;
     begin("Losses longer than 5, 10, 20 ms");
     for (const ContactFigures::Losses &l : f.losses)
@@ -195,15 +235,15 @@ namespace taut
     out << " %, for the time of arcs\n";
   }
 
-  void Statistics::print_shares(const Contact &contact, std::ostream &out) const
+  void Statistics::print_shares(const Contact &contact, const double size, std::ostream &out) const
   {
     out << "  Sum over its wires, unfiltered: mean, maximum, time without this wire\n";
     for (std::size_t i = 0; i < contact.wires.size(); ++i)
     {
       const ContactQuantities f = quantities(contact, contact.wires[i]);
       out << "    " << std::left << std::setw(34) << contact.of.names[i] << std::right
-          << std::setw(10) << f.raw.mean << std::setw(10) << f.raw.maximum << " N  " << std::setw(8)
-          << 100. * f.loss << " %\n";
+          << std::setw(10) << shown(f.raw.mean, size) << std::setw(10) << shown(f.raw.maximum, size)
+          << " N  " << std::setw(8) << 100. * f.loss << " %\n";
     }
   }
 
@@ -215,7 +255,7 @@ namespace taut
       of += (i > 0 ? " + '" : " '") + sum.of[i] + "'";
     print_head(of, f, out);
     if (f.n_samples > 0)
-      print_rows(table_of_sum(f, false), table_of_sum(f, true), false, out);
+      print_rows(table_of_sum(f, false), table_of_sum(f, true), size_of(f), false, out);
   }
 
   void Statistics::print_links(std::ostream &out) const
@@ -235,8 +275,7 @@ namespace taut
       return;
     out << "Unilateral links that opened: " << n_opened << " of " << n_unilateral;
     if (longest)
-      out << "; longest '" << longest->name << "', " << std::setprecision(4) << longest->open_time
-          << " s";
+      out << "; longest '" << longest->name << "', " << duration(longest->open_time) << " s";
     out << '\n';
   }
 
@@ -256,11 +295,16 @@ namespace taut
     for (const ProbeQuantities &probe : probes)
     {
       const std::vector<Quantity> rows = table(probe);
+      double size = 0.;
+      for (const ProbeQuantities &other : probes)
+        for (const Quantity &row : table(other))
+          if (row.unit == rows[0].unit)
+            size = std::max(size, std::fabs(row.value));
       out << "  " << std::left << std::setw(36) << probe.name << std::right << std::setw(10)
-          << rows[0].value << std::setw(10) << rows[1].value << ' ' << std::left << std::setw(4)
-          << rows[0].unit << std::right;
+          << shown(rows[0].value, size) << std::setw(10) << shown(rows[1].value, size) << ' '
+          << std::left << std::setw(4) << rows[0].unit << std::right;
       if (!rows[0].expected.empty())
-        out << "    " << comparison(rows[0].value, rows[0].expected, true);
+        out << "    " << comparison(rows[0].value, rows[0].expected, true, size);
       out << '\n';
     }
     print_links(out);

@@ -162,10 +162,10 @@ def dropper_forces(results, _):
 
 
 def read_start(results):
-    """Names, x [m], force and unstressed length [m] of the links of start.csv."""
+    """Names, x [m], force and unstressed length [m], NaN without one, of the links of start.csv."""
     lines = results.start()
     try:
-        return [line["link"] for line in lines], *(np.array([float(line[key]) for line in lines])
+        return [line["link"] for line in lines], *(np.array([float(line[key] or "nan") for line in lines])
                                                    for key in ("x [m]", "force [N or N m]", "length [m]"))
     except (KeyError, TypeError, ValueError) as error:
         raise UserError(f"'{results.path('start.csv')}' is damaged: {error!r}") from error

@@ -41,7 +41,9 @@ class Sweep:
         if not self.rows:
             raise UserError(f"all cases of the sweep in '{folder}' failed; sweep.csv says why")
         self.quantities = [name for name in self.columns if re.search(r": .* \[.*\]$", name)]
-        self.parameters = self.columns[1:self.columns.index(self.quantities[0])] if self.quantities else []
+        varied = self.columns[1:self.columns.index(self.quantities[0])] if self.quantities else []
+        self.heads = {re.sub(r" \[[^]]*\]$", "", head): head for head in varied}
+        self.parameters = list(self.heads)
         self.is_random = int(entries.get("Sweep/Samples", "0")) > 0
         self.is_zipped = entries.get("Sweep/Combination") == "zipped" and not self.is_random
         self.units = {name: units.get(entries.get(f"Sweep/Parameter {name}/Entries", "").partition(",")[0].strip(), "")
@@ -53,7 +55,7 @@ class Sweep:
         return f"{parameter} [{unit}]" if unit else parameter
 
     def text(self, name):
-        return [row[self.columns.index(name)] for row in self.rows]
+        return [row[self.columns.index(self.heads.get(name, name))] for row in self.rows]
 
     def scaled(self, quantity):
         """Its numbers in the unit that they are written best in, and its name with this unit."""

@@ -175,6 +175,8 @@ namespace taut
     Entry entry{{}, trim(assignment.substr(equals + 1)), "--set"};
     const std::string path = assignment.substr(0, equals);
     entry.path = path.find('/') != std::string::npos ? split(path, '/') : split_at_dots(path);
+    if (const auto origin = origins.find(entry.name()); origin != origins.end())
+      entry.place = origin->second;
     if (entry.value.find_first_of("\n#") != std::string::npos)
       throw UserError("--set '" + assignment + "': a value has no line end and no '#'");
     check_text(assignment, "--set");
@@ -183,6 +185,12 @@ namespace taut
       return list[known->second] = entry;
     add(entry);
     return list.back();
+  }
+
+  std::string ParameterFile::place_of(const std::string &name) const
+  {
+    const auto known = index.find(name);
+    return known == index.end() ? main_file : list[known->second].place;
   }
 
   void ParameterFile::broadcast(const Communicator &processes)

@@ -182,8 +182,12 @@ namespace taut
     std::getline(lines, description);
     // The run then has the entries of the setting, so that a file with them gives the same run.
     std::vector<std::string> all = overrides;
+    const std::string place = place_of("Study/Accuracy");
     for (std::string line; std::getline(lines, line);)
+    {
+      set_origin(line.substr(0, line.find('=')), place);
       all.push_back(line);
+    }
     all.push_back("Study/Accuracy=0");
     read_entries(name, all, processes);
     choice = description;
@@ -319,6 +323,20 @@ namespace taut
       return;
     declared.entries->print_parameters(out, dealii::ParameterHandler::PRM |
                                                 dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+  std::string Parameters::unit_of(const std::string &entry) const
+  {
+    std::string unit;
+    visit_entries(listing_of(*declared.entries),
+                  [&](const std::string &path, const nlohmann::json &node)
+                  {
+                    const std::string help = node.at("documentation");
+                    const std::size_t begin = help.rfind('[');
+                    if (path == entry && begin != std::string::npos && help.back() == ']')
+                      unit = help.substr(begin + 1, help.size() - begin - 2);
+                  });
+    return unit;
   }
 
   Scene Parameters::generated_scene() const

@@ -242,27 +242,53 @@ namespace taut
     observed->set_rest_of_probes(rest);
   }
 
+  namespace
+  {
+    bool is_same_or_ground(const Attachment &a, const Attachment &b)
+    {
+      const bool is_same =
+          a.kind == b.kind && a.index == b.index && a.position == b.position && a.place == b.place;
+      return is_same || a.kind == Attachment::Kind::ground || b.kind == Attachment::Kind::ground;
+    }
+
+    /// Whether joints are of one ball joint: along several directions, from one section, between
+    /// the same ends. In place of a body in its plane the ground holds across the plane.
+    bool are_one_ball_joint(const Link &a, const Link &b)
+    {
+      return !a.origin.empty() && a.origin == b.origin && a.kind == LinkKind::joint &&
+             b.kind == LinkKind::joint && dot(a.direction, b.direction) == 0. &&
+             is_same_or_ground(a.from, b.from) && is_same_or_ground(a.to, b.to);
+    }
+  } // namespace
+
+  /// All rows of a ball joint have the place of the first one.
   void Simulation::write_start(const ScenePlaces &places) const
   {
     const State &start = motion->start().state;
     TableFile file(parameters.output.folder + "/start.csv",
                    {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
                     "length [m]", "stretched length [m]"});
+    std::size_t placed = 0; ///< the link whose place is shown
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link())
         continue;
       const Link &link = model.links[links[i].link];
-      const Coordinates &at = link.to.kind == Attachment::Kind::ground ? places.from[links[i].link]
-                                                                       : places.to[links[i].link];
+      if (!are_one_ball_joint(model.links[placed], link))
+        placed = links[i].link;
+      const Coordinates &at = model.links[placed].to.kind == Attachment::Kind::ground
+                                  ? places.from[placed]
+                                  : places.to[placed];
+      file << links[i].name << at.x << at.y << at.z << start.multiplier[i]
+           << start.geometric_gap[i];
       // A force makes droppers longer, other links shorter.
-      const double elongation = link.elongation(start.multiplier[i]),
-                   stretched = link.unstressed_length > 0.
-                                   ? link.unstressed_length +
-                                         (link.kind == LinkKind::dropper ? elongation : -elongation)
-                                   : 0.;
-      file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.geometric_gap[i]
-           << link.unstressed_length << stretched;
+      const double elongation = link.elongation(start.multiplier[i]);
+      if (link.unstressed_length > 0.)
+        file << link.unstressed_length
+             << link.unstressed_length +
+                    (link.kind == LinkKind::dropper ? elongation : -elongation);
+      else
+        file << std::string() << std::string();
       file.end_line();
     }
     file.close();

@@ -59,6 +59,8 @@ namespace taut
     std::vector<std::string> all = overrides;
     all.insert(all.end(), entries.begin(), entries.end());
     auto fresh = std::make_unique<Parameters>();
+    for (const auto &[entry, place] : origins)
+      fresh->set_origin(entry, place);
     fresh->read(file, all);
     fresh->write_nothing();
     parameters = std::move(fresh);

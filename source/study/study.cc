@@ -229,6 +229,7 @@ namespace taut
         all.push_back(entry + "=" + values[k]);
     all.push_back("Output/Folder=" + parameters.study_folder() + "/run");
     Parameters chosen;
+    set_origins(chosen);
     chosen.read(file, all);
     if (!with_output)
     {
@@ -237,6 +238,17 @@ namespace taut
     }
     chosen.output.overwrite = true;
     return measure_run(chosen, with_quantities, stop_asked);
+  }
+
+  /// Messages about varied entries say where their values are written.
+  void Study::set_origins(Parameters &chosen) const
+  {
+    const StudyParameters &study = parameters.study;
+    for (std::size_t k = 0; k < result.parameter_lists.size(); ++k)
+      for (const std::string &entry : result.parameter_lists[k].entries)
+        chosen.set_origin(entry,
+                          parameters.place_of(study.parameter_list_items.title(k) + "/Values"));
+    chosen.set_origin("Output/Folder", parameters.place_of("Study/Folder"));
   }
 
   void Study::run_setting(StudySetting &setting, const bool first) const
@@ -279,7 +291,7 @@ namespace taut
       log << ": error " << setting.error << ", " << setting.seconds_with_output << " s"
           << std::endl;
     else
-      log << ": " << setting.message << std::endl;
+      log << ": failed" << std::endl; // print_study() says why
   }
 
   void Study::compare(StudySetting &setting, const std::vector<StudyQuantity> &quantities) const

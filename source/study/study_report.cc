@@ -13,6 +13,7 @@
 #include <iomanip>
 #include <limits>
 #include <ostream>
+#include <utility>
 
 namespace taut
 {
@@ -104,6 +105,37 @@ namespace taut
       }
       out << '\n';
     }
+
+    /// A message without the value of its entry, "file:line: Section/Entry = 'value': reason".
+    std::string without_value(const std::string &message)
+    {
+      const std::string mark = " = '";
+      const std::size_t begin = message.find(mark),
+                        end = begin == std::string::npos ? begin
+                                                         : message.find('\'', begin + mark.size());
+      return end == std::string::npos ? message : message.substr(0, begin) + message.substr(end);
+    }
+
+    /// A line for each reason, with the first of the values that have it.
+    void print_reasons(const StudyResult &result, std::ostream &out)
+    {
+      std::vector<std::pair<std::string, std::size_t>> reasons; // messages and how often
+      for (const StudySetting &setting : result.settings)
+      {
+        if (setting.message.empty())
+          continue;
+        const auto known =
+            std::find_if(reasons.begin(), reasons.end(),
+                         [&](const auto &reason)
+                         { return without_value(reason.first) == without_value(setting.message); });
+        if (known == reasons.end())
+          reasons.emplace_back(setting.message, 1);
+        else
+          ++known->second;
+      }
+      for (const auto &[message, n] : reasons)
+        out << "  " << n << (n == 1 ? " setting: " : " settings: ") << message << '\n';
+    }
   } // namespace
 
   void prepare_study_folder(const std::string &folder, const bool overwrite)
@@ -167,7 +199,10 @@ namespace taut
           name_cheapest(result.quantity_names[i], cheapest(result, i, accuracy));
     }
     if (n_failed > 0)
+    {
       out << n_failed << " settings failed; the reasons are in work_precision.csv\n";
+      print_reasons(result, out);
+    }
     out.flags(flags);
     out.precision(precision);
   }

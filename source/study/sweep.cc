@@ -62,6 +62,13 @@ namespace taut
         throw EntryError("Time/End", "a sweep takes quantities of runs in time; take a later end");
       swept = parameters.sweep.parameters(parameters.values());
       cases = parameters.sweep.cases();
+      for (std::size_t i = 0; i < swept.size(); ++i)
+      {
+        const auto &items = parameters.sweep.items;
+        const std::string values = items.items[i].is_random() ? "/Range" : "/Values";
+        for (const std::string &entry : swept[i].entries)
+          runner.set_origin(entry, parameters.place_of(items.title(i) + values));
+      }
     }
     catch (const EntryError &e)
     {
@@ -75,12 +82,23 @@ namespace taut
                                            : parameters.sweep.folder;
   }
 
+  /// Its name, and the unit that all its entries have.
+  std::string Sweep::title_of(const SweptParameter &parameter) const
+  {
+    const std::string unit = parameters.unit_of(parameter.entries[0]);
+    const bool has_unit =
+        !unit.empty() &&
+        std::all_of(parameter.entries.begin(), parameter.entries.end(),
+                    [&](const std::string &entry) { return parameters.unit_of(entry) == unit; });
+    return parameter.name + (has_unit ? " [" + unit + "]" : "");
+  }
+
   /// Column names from the scene in the file.
   void Sweep::name_columns()
   {
     header = csv_cell("case");
     for (const SweptParameter &parameter : swept)
-      header += "," + csv_cell(parameter.name);
+      header += "," + csv_cell(title_of(parameter));
     for (const Statistics::NamedQuantity &quantity : runner.quantities())
     {
       names.push_back(title(quantity));

@@ -90,6 +90,8 @@ namespace taut
     std::vector<std::string> all = overrides;
     all.insert(all.end(), entries.begin(), entries.end());
     Parameters chosen;
+    for (const std::string &entry : entries)
+      chosen.set_origin(entry.substr(0, entry.find('=')), "--accuracy");
     chosen.read(file, all);
     chosen.write_nothing();
     return measure_run(chosen, true, [this]() { return ask(); });

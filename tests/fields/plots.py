@@ -126,7 +126,10 @@ def check_sweep():
     expect("zipped parameters are one line", len(panel.get_lines()) == 1, len(panel.get_lines()))
     close("its values", panel.get_lines()[0].get_xydata(), [[1, 6], [2, 8], [3, 5]])
     expect("its units", panel.get_xlabel() == "mass [kg] / k [N/m]", panel.get_xlabel())
-
+    (path / "sweep.csv").write_text('case,mass [kg],"k [N/m, N m/rad]",stop: largest force [N],message\n1,3,100,5,\n2,1,150,6,\n3,2,200,8,\n')
+    panel, = plot.sweep_picture(str(path), options())[0].axes
+    close("with units in the heads", panel.get_lines()[0].get_xydata(), [[1, 6], [2, 8], [3, 5]])
+    expect("the same units", panel.get_xlabel() == "mass [kg] / k [N/m]", panel.get_xlabel())
 
     (path / "sweep.csv").write_text("case,pace,tip: largest [m],message\n1,sin(2*t),0.002,\n2,sin(3*t),0.004,\n")
     (path / "sweep.prm").write_text("subsection Sweep\n  subsection Parameter pace\n    set Entries = A/Magnitude\n  end\nend\n")

@@ -23,6 +23,7 @@ PYTHON = next((python for python in (sys.executable, "/usr/bin/python3")
                if subprocess.run([python, "-c", "import matplotlib"], capture_output=True).returncode == 0), sys.executable)
 SCENE = (arguments.prm / "oscillator_with_stop.prm").read_text()
 MASS, STIFFNESS, STEP = "Network/Mass mass/Mass", "Network/Spring spring/Stiffness", "Time/Step"
+MASS_HEAD, STIFFNESS_HEAD = "mass [kg]", "k [N/m, N m/rad]"  # parameters named mass and k, with the units of the entries
 
 
 def scene(folder, name, parameters, **entries):
@@ -55,16 +56,16 @@ def check_values(folder):
     mass = {"Entries": MASS, "Values": "1, 2:1:4"}
     stiffness = {"Entries": STIFFNESS, "Values": "100; 150; 200; 250"}
     name = scene(folder, "product.prm", {"mass": mass, "k": stiffness})
-    found = [(float(row["mass"]), float(row["k"])) for row in rows(sweep(folder, name, "product"))]
+    found = [(float(row[MASS_HEAD]), float(row[STIFFNESS_HEAD])) for row in rows(sweep(folder, name, "product"))]
     expect("product", found == [(m, k) for k in (100, 150, 200, 250) for m in (1, 2, 3, 4)], found)
     name = scene(folder, "zipped.prm", {"mass": mass, "k": stiffness}, Combination="zipped")
     table = rows(sweep(folder, name, "zipped"))
-    found = [(float(row["mass"]), float(row["k"])) for row in table]
+    found = [(float(row[MASS_HEAD]), float(row[STIFFNESS_HEAD])) for row in table]
     expect("zipped", found == [(1, 100), (2, 150), (3, 200), (4, 250)], found)
 
     # A run of its own has the same numbers.
     row = table[2]
-    taut(folder, name, "--set", f"{MASS}={row['mass']}", "--set", f"{STIFFNESS}={row['k']}", "--set", "Output/Folder=alone")
+    taut(folder, name, "--set", f"{MASS}={row[MASS_HEAD]}", "--set", f"{STIFFNESS}={row[STIFFNESS_HEAD]}", "--set", "Output/Folder=alone")
     alone = json.loads((folder / "alone" / "statistics.json").read_text())
     text = json.dumps(alone)
     numbers = [(title, value) for title, value in row.items() if ": largest force" in title or ": largest impulse" in title]
@@ -82,7 +83,7 @@ def check_random(folder):
     table = rows(first)
     if len(table) != 200:
         return expect("samples", False, (len(table), errors))
-    mass, k = [float(row["mass"]) for row in table], [float(row["k"]) for row in table]
+    mass, k = [float(row[MASS_HEAD]) for row in table], [float(row[STIFFNESS_HEAD]) for row in table]
     expect("samples", len(table) == 200 and len(set(mass)) == 200, len(table))
     # Four standard errors.
     expect("uniform", 1 <= min(mass) and max(mass) <= 3 and abs(statistics.mean(mass) - 2) < 4 * 0.577 / 200**0.5,
@@ -92,7 +93,7 @@ def check_random(folder):
     expect("the seed is printed", "seed 7" in taut(folder, name, "--sweep", "--set", "Sweep/Folder=seed", "--set", "Sweep/Seed=7",
                                                   "--set", "Sweep/Samples=2").stdout)
     other = rows((folder / "seed" / "sweep.csv").read_bytes())
-    expect("another seed, other numbers", other[0]["mass"] != table[0]["mass"])
+    expect("another seed, other numbers", other[0][MASS_HEAD] != table[0][MASS_HEAD])
     for ranks in (1, 4):
         expect(f"{ranks} workers", sweep(folder, name, f"random_{ranks}", ranks=ranks) == first)
     environment = dict(os.environ, PATH=f"{pathlib.Path(arguments.mpiexec).parent}:{os.environ['PATH']}")
@@ -155,10 +156,11 @@ def check_sharing(folder):
     for ranks in (2, 4):
         expect(f"pantographs on {ranks} workers", sweep(folder, name, f"on_{ranks}", *short, ranks=ranks) == first)
     table = rows(first)
-    expect("pantographs", len(table) == 7 and len({row["masses"] for row in table}) == 7, first[:500])
+    heads = {head.partition(" [")[0]: head for head in table[0] if ": " not in head}
+    expect("pantographs", len(table) == 7 and len({row[heads["masses"]] for row in table}) == 7, first[:500])
     names = {"masses": "Masses", "stiffnesses": "Stiffnesses", "dampings": "Dampings", "speed": "Speed"}
     for row in (table[0], table[4], table[6]):
-        values = entries(*(f"Catenary/Pantograph pantograph/{entry}={row[column]}" for column, entry in names.items()))
+        values = entries(*(f"Catenary/Pantograph pantograph/{entry}={row[heads[column]]}" for column, entry in names.items()))
         result = taut(folder, name, *short, *values, "--overwrite")
         expect("a pantograph alone", result.returncode == 0, result.stderr)
         alone = numbers_in(json.loads((folder / "short" / "statistics.json").read_text()))

@@ -6,6 +6,7 @@
 
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
+#include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
 
@@ -168,6 +169,67 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
   EXPECT_EQ(n_failed, 3);
   const std::string text = verification::file_text("results/study/work_precision.csv");
   EXPECT_TRUE(has(text, "shorter than one step"));
+}
+
+TEST_F(StudyTest, failures_are_one_line_for_each_reason_with_the_line_of_the_file)
+{
+  write(oscillator + "Parameter step: Values = 2, 3, 0.01\n"
+                     "Parameter scheme: Values = Newmark, Euler\n");
+  const taut::StudyResult result = study();
+  const std::string said = log.str();
+  std::ifstream file("scene.prm");
+  int n_lines = 0, line_of_schemes = 0;
+  for (std::string line; std::getline(file, line);)
+  {
+    ++n_lines;
+    if (has(line, "Newmark, Euler"))
+      line_of_schemes = n_lines;
+  }
+  EXPECT_TRUE(has(said, "5 settings failed; the reasons are in work_precision.csv\n")) << said;
+  EXPECT_TRUE(has(said, "  3 settings: scene.prm:" + std::to_string(line_of_schemes) +
+                            ": Time/Scheme = 'Euler' is not allowed"))
+      << said;
+  EXPECT_TRUE(has(said, "  2 settings: scene.prm:")) << said;
+  EXPECT_EQ(said.find("shorter than one step"), said.rfind("shorter than one step")) << said;
+  EXPECT_FALSE(has(said, "--set")) << said;
+  for (const taut::StudySetting &setting : result.settings)
+    EXPECT_FALSE(has(setting.message, "--set")) << setting.message;
+}
+
+// Values of one entry with the same fault are one reason.
+TEST_F(StudyTest, reasons_are_the_same_whatever_the_value)
+{
+  write(bare_oscillator + R"(Study: Repeats = 1; Reference levels = 1
+Parameter law: Entries = Network/Spring spring/Stiffness; Values = 200, none, nothing
+Quantity end: Of = place; Quantity = last
+)");
+  study();
+  EXPECT_TRUE(has(log.str(), "  2 settings: scene.prm:")) << log.str();
+  EXPECT_TRUE(has(log.str(), "Network/Spring spring/Stiffness = 'none' is not allowed"))
+      << log.str();
+}
+
+// One line for each case, whose heads have the units of the help and whose messages have the line
+// of the values.
+TEST_F(StudyTest, a_sweep_has_units_in_its_heads_and_lines_of_the_file_in_its_messages)
+{
+  write(bare_oscillator +
+        R"(Sweep: Parameters = mass, k, scheme, both; Combination = zipped
+Sweep/Parameter mass: Entries = Network/Mass block/Mass; Values = 2, 3
+Sweep/Parameter k: Entries = Network/Spring spring/Stiffness; Values = 200, 300
+Sweep/Parameter scheme: Entries = Time/Scheme; Values = Newmark, Euler
+Sweep/Parameter both: Entries = Time/Step, Network/Mass block/Inertia; Values = 0.01, 0.02
+)");
+  taut::Sweep("scene.prm", {}, taut::Communicator(), log).run();
+  std::istringstream table(verification::file_text("results/sweep/sweep.csv"));
+  std::string head, first, second;
+  std::getline(table, head);
+  std::getline(table, first);
+  std::getline(table, second);
+  EXPECT_EQ(head.rfind("case,mass [kg],\"k [N/m, N m/rad]\",scheme,both,", 0), 0u) << head;
+  EXPECT_EQ(first.rfind("1,2,200,Newmark,0.01,", 0), 0u) << first;
+  EXPECT_TRUE(has(second, "scene.prm:")) << second;
+  EXPECT_FALSE(has(second, "--set")) << second;
 }
 
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)

@@ -79,6 +79,13 @@ TEST(LineFigures, constants_of_lines_are_those_of_the_log)
   }
 }
 
+TEST(LineFigures, ratios_have_no_unit_in_the_log)
+{
+  const std::string log = log_of(line);
+  EXPECT_TRUE(std::regex_search(log, std::regex(R"(Standard deviation over mean +\S+ *\n)")))
+      << log;
+}
+
 TEST(LineFigures, columns_of_sweeps_are_the_statistics)
 {
   Session session(line);

@@ -118,6 +118,62 @@ TEST(Messages, about_a_name_in_a_long_list_are_short_and_begin_with_the_reason)
   EXPECT_LT(of_end.size(), 500u);
 }
 
+// A ball joint between a cable and a solid in the plane, which does not move across it, and a
+// dropper from the ground beside one with a length.
+TEST(StartTable, has_one_place_of_a_ball_joint_and_no_length_of_droppers_from_the_ground)
+{
+  Session session(R"(Gravity = 0, -9.81; Start = equilibrium
+Body bracket: Type = solid; Young's modulus = 1e7; Density = 1000; Thickness = 0.01; Fixed boundaries = 0
+Body bracket/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 4, 1 : -0.8, 0 : 0, 0.08
+Body guy: Type = cable; From = -0.8, 0.68; To = 0, 0.08; Unstressed length = 0.9995;
+  Axial stiffness = 2e4; Mass per length = 0.25; Element = bar; Elements = 4; Held ends = from
+Wire line: From = 0, 5; To = 10, 5; Components = string; Mass per length = 1; Tension = 1000
+Wire low: From = 0, 4; To = 10, 4; Components = string; Mass per length = 1; Tension = 1000
+Support ends: Wire = line; Positions = 0, 10
+Support low ends: Wire = low; Positions = 0, 10
+Link eye: Type = ball joint; From = guy @ 0.9995, 0; To = bracket @ 0, 0.08
+Link hook: Type = dropper; From = ground; To = line @ 5; Direction = 0, -1
+Link hanger: Type = dropper; From = line @ 3; To = low @ 3; Length = 0.99
+Time: End = 0
+)");
+  session.run();
+  const auto table = read_table(session.folder() + "/start.csv");
+  const std::vector<double> &length = table.at("length [m]"),
+                            &stretched = table.at("stretched length [m]");
+  ASSERT_EQ(length.size(), 5u);
+  for (const char *const axis : {"x [m]", "y [m]", "z [m]"})
+    for (const std::size_t row : {1, 2})
+      EXPECT_EQ(table.at(axis)[row], table.at(axis)[0]) << axis << ' ' << row;
+  EXPECT_NE(table.at("x [m]")[3], table.at("x [m]")[0]);
+  for (const std::size_t row : {0, 1, 2, 3})
+    EXPECT_TRUE(std::isnan(length[row]) && std::isnan(stretched[row])) << row;
+  EXPECT_EQ(length[4], .99);
+  EXPECT_GE(stretched[4], .99);
+}
+
+// A constant force on a mass and a spring: from 0 to 2 F/k within half a period, 2 ms or 2 us here.
+// A stop beyond is open all the time.
+TEST(Messages, of_small_scenes_keep_their_digits)
+{
+  const auto log = [](const std::string &load, const std::string &mass, const std::string &time)
+  {
+    return log_of("Gravity = 0, 0\nStart = undeformed\n"
+                  "Mass tip: Position = 0, 0; Motions = y; Mass = " +
+                  mass +
+                  "\nSpring spring: From = ground; To = tip; Stiffness = 1\n"
+                  "Link stop: Type = stop; From = tip; To = ground; Direction = 0, 1; Gap = 1; "
+                  "Stiffness = 100\nLoad push: On = tip; Magnitude = " +
+                  load + "\nProbe tip: Point = tip\nTime: Scheme = Newmark; " + time + "\n");
+  };
+  const std::string small = log("1.234e-7", "4.0528473e-13", "Step = 1e-8; End = 2e-6"),
+                    large = log("1.234e-4", "4.0528473e-7", "Step = 1e-5; End = 2e-3");
+  const std::string name = "  tip                                 ";
+  EXPECT_TRUE(has(small, name + "  0.000247         0 mm")) << small;
+  EXPECT_TRUE(has(small, "longest 'stop', 2e-06 s")) << small;
+  EXPECT_TRUE(has(large, name + "      0.25      0.00 mm")) << large;
+  EXPECT_TRUE(has(large, "longest 'stop', 0.0020 s")) << large;
+}
+
 TEST(ResultsFolder, of_a_run_on_its_way_is_refused_to_another)
 {
   Session first(line + "Support ends: Wire = line; Positions = 0, 10\n");

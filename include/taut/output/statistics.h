@@ -171,10 +171,11 @@ namespace taut
     void print_head(const std::string &of, const ContactQuantities &quantities,
                     std::ostream &out) const;
     static void print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
-                           bool judged, std::ostream &out);
+                           double size, bool judged, std::ostream &out);
     void print_contact(const Contact &contact, std::ostream &out) const;
-    void print_figures(const Contact &contact, double loss, std::ostream &out) const;
-    void print_shares(const Contact &contact, std::ostream &out) const;
+    void print_figures(const Contact &contact, const ContactQuantities &of,
+                       std::ostream &out) const;
+    void print_shares(const Contact &contact, double size, std::ostream &out) const;
     void print_sum(const ContactSum &sum, std::ostream &out) const;
     void print_links(std::ostream &out) const;
 

@@ -21,7 +21,7 @@ namespace taut
     {
       std::vector<std::string> path; ///< sections, then the entry's own name
       std::string value;
-      std::string place; ///< "file:line", or "--set" on the command line
+      std::string place; ///< "file:line", "--set" on the command line, or as set_origin() says
 
       std::string name() const; ///< the path joined with '/'
     };
@@ -33,6 +33,12 @@ namespace taut
     /// Sets "A.B.Entry=value" or "A/B/Entry=value" from the command line, in place of an existing
     /// entry. Returns the entry. Between dots, sections of the file may have names with dots.
     const Entry &set(const std::string &assignment);
+
+    /// Says for later set() of an entry where its value is from, in place of the command line.
+    void set_origin(const std::string &name, const std::string &place) { origins[name] = place; }
+
+    /// Place of an entry, or the file if it does not set the entry.
+    std::string place_of(const std::string &name) const;
 
     /// Sends the data of the root to all ranks.
     void broadcast(const Communicator &processes);
@@ -59,6 +65,7 @@ namespace taut
 
     std::vector<Entry> list, section_list;
     std::map<std::string, std::size_t> index, section_index; ///< by name, in the lists
+    std::map<std::string, std::string> origins;              ///< places by name
     std::string main_file;
     std::vector<std::string> open_files;          ///< during reading, to detect a loop of includes
     std::vector<std::vector<std::string>> set_in; ///< files open at each entry of the list

@@ -85,6 +85,19 @@ namespace taut
      */
     bool change(const std::vector<std::string> &overrides);
 
+    /// For messages: overrides of @p entry in later calls of read() and change() are from @p place,
+    /// not from the command line.
+    void set_origin(const std::string &entry, const std::string &place)
+    {
+      file.set_origin(entry, place);
+    }
+
+    /// "file:line" of an entry, "--set", or the file if it does not set the entry.
+    std::string place_of(const std::string &entry) const { return file.place_of(entry); }
+
+    /// Unit of an entry, what its help has in brackets at its end; empty without one. After read().
+    std::string unit_of(const std::string &entry) const;
+
     /// Sets all entries to their defaults, for print().
     void set_defaults();
 

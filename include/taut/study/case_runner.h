@@ -7,6 +7,7 @@
 #include <taut/simulation/parameters.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ namespace taut
     {
     }
 
+    /// As Parameters::set_origin(), for all cases to come.
+    void set_origin(const std::string &entry, const std::string &place) { origins[entry] = place; }
+
     /// As Simulation::stop_if(), asked after each step.
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
@@ -49,6 +53,7 @@ namespace taut
 
     std::string file;
     std::vector<std::string> overrides;
+    std::map<std::string, std::string> origins;
     std::function<int()> stop_asked;
     std::unique_ptr<Parameters> parameters; ///< of the last case; none before the first one
     SharedParts shared;

@@ -77,6 +77,7 @@ namespace taut
     std::vector<std::string> reference_values(unsigned int level) const;
     MeasuredRun run_once(const std::vector<std::string> &values, bool with_output,
                          bool with_quantities) const;
+    void set_origins(Parameters &chosen) const;
     void run_setting(StudySetting &setting, bool first) const;
     void compare(StudySetting &setting, const std::vector<StudyQuantity> &quantities) const;
 

@@ -16,8 +16,9 @@ namespace taut
 {
   /**
    * Runs a scene once for each case of its section Sweep, and writes sweep.csv with one line per
-   * case, in order. A line has the values of the entries, all quantities that are one number
-   * (Statistics::named_quantities), the largest residuals of the run, and the reason of a failure.
+   * case, in order. A line has the values of the entries, with the unit in the head, all quantities
+   * that are one number (Statistics::named_quantities), the largest residuals of the run, and the
+   * reason of a failure.
    *
    * Ranks are workers. Each worker runs its cases alone, so that the lines do not depend on the
    * number of workers. Workers meet after each batch of cases, and the lines of the batch go to the
@@ -46,6 +47,7 @@ namespace taut
 
   private:
     std::string sweep_folder() const;
+    std::string title_of(const SweptParameter &parameter) const;
     void name_columns();
     void prepare_folder();
     void keep_data_files();
