@@ -21,8 +21,8 @@ namespace taut
       return to_text(std::fixed, std::setprecision(2), value);
     }
 
-    /// With two decimals, or with three digits in a table of small numbers, whose size is at most
-    /// @p largest; below rounding it is zero.
+    /// With two decimals, or with three digits in a table of small numbers, which are at most
+    /// @p largest. A table of rounding errors has two decimals, too.
     std::string shown(const double value, const double largest)
     {
       constexpr double least_fixed = .1, rounding = 1e-9;

@@ -8,7 +8,8 @@
 
 namespace taut
 {
-  /// Extremes and spread of the force of a dropper over the steps of a run, by their lengths.
+  /// Extremes and spread of the force of a dropper over the steps of a run, or of a support over
+  /// those in the window, by their lengths.
   struct LinkForce
   {
     double least = 0., largest = 0.; ///< [N]
