@@ -65,6 +65,20 @@ namespace taut
     return element.smallest_strain(q) * data.section.axial_stiffness >= -rounding;
   }
 
+  std::vector<Cable::Section> Cable::sections(const std::vector<double> &U) const
+  {
+    const std::vector<double> q = positions(U);
+    const auto tension = tension_at(q);
+    std::vector<Section> result;
+    for (std::size_t i = 0; i < n_sections(); ++i)
+    {
+      const double s = std::min(.5 * element.element_length() * i, data.length);
+      result.push_back({add_scaled(data.from, 1., element.position(q, s)), tension(s),
+                        data.section.bending_stiffness * element.curvature(q, s)});
+    }
+    return result;
+  }
+
   void Cable::check_at_rest(const std::vector<double> &U) const
   {
     const std::vector<double> q = positions(U);

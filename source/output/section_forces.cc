@@ -3,7 +3,9 @@
 #include <taut/base/nearest_name.h>
 #include <taut/base/patterns.h>
 #include <taut/base/text.h>
+#include <taut/cable/cable.h>
 #include <taut/output/section_forces.h>
+#include <taut/scene/entries.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
@@ -19,16 +21,23 @@ namespace taut
     constexpr const char *path = "Output/section forces";
     constexpr double per_mm = 1e-3, per_mm2 = 1e-6, per_MPa = 1e6;
 
-    std::size_t index_of(const Scene &scene, const std::string &name)
+    [[noreturn]] void fail_unknown(const Scene &scene, const std::string &name)
     {
       std::vector<std::string> known;
       for (const Wire &wire : scene.wires)
         known.push_back(wire.name);
-      const auto found = std::find(known.begin(), known.end(), name);
-      if (found == known.end())
-        throw EntryError(std::string(path) + "/Wires",
-                         "there is no wire '" + name + "'" + suggestion(name, known));
-      return found - known.begin();
+      for (const CustomBody &body : scene.bodies)
+        if (body.type_name == "cable")
+          known.push_back(body.name);
+      throw EntryError(std::string(path) + "/Wires",
+                       "there is no wire or cable '" + name + "'" + suggestion(name, known));
+    }
+
+    /// The cable of a body; null on ranks without it.
+    const Cable *cable_of(const StepView &step, const std::size_t body, std::size_t &k)
+    {
+      k = step.structure.indices_of_body(body)[0];
+      return k == Structure::elsewhere ? nullptr : dynamic_cast<const Cable *>(&step.structure[k]);
     }
   } // namespace
 
@@ -41,7 +50,8 @@ namespace taut
   void SectionForces::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.add_parameter("Wires", wires, "Names, separated by commas", List(Anything(), 0));
+    prm.add_parameter("Wires", wires, "Names of wires and cables, separated by commas",
+                      List(Anything(), 0));
     prm.add_parameter("Section areas", areas,
                       "Of each of these wires, for stresses; empty: no stresses [mm^2]",
                       List(not_negative(), 0));
@@ -65,42 +75,58 @@ namespace taut
       throw EntryError(path, "stresses need both Section areas and Diameters");
     std::vector<Section> all;
     for (std::size_t i = 0; i < wires.size(); ++i)
-    {
-      Section section;
-      section.wire = index_of(step.scene, wires[i]);
-      const Wire &wire = step.scene.wires[section.wire];
-      section.tension = wire.tension;
-      section.EA = wire.has_axial ? wire.axial_stiffness : 0.;
-      section.EI = wire.transverse == TransverseKind::beam ? wire.bending_stiffness : 0.;
-      section.area = areas.empty() ? 0. : areas[i] * per_mm2;
-      section.diameter = diameters.empty() ? 0. : diameters[i] * per_mm;
-      section.nodes = grid(step.scene, section.wire);
-      for (const double s : section.nodes)
-        section.x.push_back(wire.at(s).x);
-      const auto find = [&](const WireMotion motion, Motion &forms)
-      {
-        for (const double s : section.nodes)
-        {
-          forms.at_nodes.emplace_back();
-          step.structure.motion(section.wire, s, motion, forms.at_nodes.back());
-        }
-        forms.values.resize(section.nodes.size());
-      };
-      if (section.EA > 0.)
-        find(WireMotion::axial, section.axial);
-      if (section.EI > 0.)
-      {
-        find(WireMotion::transverse, section.across);
-        find(WireMotion::slope, section.slope);
-      }
-      if (section.EI > 0. && wire.has_lateral)
-      {
-        find(WireMotion::lateral, section.lateral);
-        find(WireMotion::lateral_slope, section.lateral_slope);
-      }
-      all.push_back(std::move(section));
-    }
+      all.push_back(section_of(i, step));
     sections = std::move(all);
+  }
+
+  SectionForces::Section SectionForces::section_of(const std::size_t i, const StepView &step) const
+  {
+    Section section;
+    section.area = areas.empty() ? 0. : areas[i] * per_mm2;
+    section.diameter = diameters.empty() ? 0. : diameters[i] * per_mm;
+    section.index = find_name(step.scene.wires, wires[i]);
+    if (section.index != ground)
+    {
+      set_motions(section, step);
+      return section;
+    }
+    section.is_cable = true;
+    section.index = find_name(step.scene.bodies, wires[i]);
+    if (section.index == ground || step.scene.bodies[section.index].type_name != "cable")
+      fail_unknown(step.scene, wires[i]);
+    return section;
+  }
+
+  void SectionForces::set_motions(Section &section, const StepView &step) const
+  {
+    const Wire &wire = step.scene.wires[section.index];
+    section.tension = wire.tension;
+    section.EA = wire.has_axial ? wire.axial_stiffness : 0.;
+    section.EI = wire.transverse == TransverseKind::beam ? wire.bending_stiffness : 0.;
+    section.nodes = grid(step.scene, section.index);
+    for (const double s : section.nodes)
+      section.x.push_back(wire.at(s).x);
+    const auto find = [&](const WireMotion motion, Motion &forms)
+    {
+      for (const double s : section.nodes)
+      {
+        forms.at_nodes.emplace_back();
+        step.structure.motion(section.index, s, motion, forms.at_nodes.back());
+      }
+      forms.values.resize(section.nodes.size());
+    };
+    if (section.EA > 0.)
+      find(WireMotion::axial, section.axial);
+    if (section.EI > 0.)
+    {
+      find(WireMotion::transverse, section.across);
+      find(WireMotion::slope, section.slope);
+    }
+    if (section.EI > 0. && wire.has_lateral)
+    {
+      find(WireMotion::lateral, section.lateral);
+      find(WireMotion::lateral_slope, section.lateral_slope);
+    }
   }
 
   void SectionForces::record(const StepView &step)
@@ -108,12 +134,48 @@ namespace taut
     if (sections.empty())
       step.structure.communicator().agree([&] { begin(step); });
     for (Section &section : sections)
-      measure(section, step);
+      if (section.is_cable)
+        measure_cable(section, step);
+      else
+        measure_wire(section, step);
   }
 
-  void SectionForces::measure(Section &section, const StepView &step)
+  void SectionForces::take(Section &section, const double N, const double M, const double x,
+                           const double time)
   {
-    const Wire &wire = step.scene.wires[section.wire];
+    const double d = section.diameter,
+                 modulus = dealii::numbers::PI * d * d * d / 32.; // I / (d / 2)
+    section.force.take(N, x, time);
+    section.moment.take(M, x, time);
+    if (section.area > 0. && modulus > 0.)
+      section.stress.take(N / section.area + M / modulus, x, time);
+  }
+
+  void SectionForces::measure_cable(Section &section, const StepView &step)
+  {
+    std::size_t k;
+    const Cable *const cable = cable_of(step, section.index, k);
+    double n = cable ? cable->n_sections() : 0.;
+    step.structure.communicator().sum(&n, 1);
+    of_cable.assign(3 * static_cast<std::size_t>(n), 0.);
+    if (cable)
+    {
+      U = step.state.U[k];
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] += step.reference.displacement[k][i];
+      std::size_t i = 0;
+      for (const Cable::Section &at : cable->sections(U))
+        for (const double value : {at.place.x, at.tension, at.moment})
+          of_cable[i++] = value;
+    }
+    step.structure.communicator().sum(of_cable);
+    for (std::size_t i = 0; i < of_cable.size(); i += 3)
+      take(section, of_cable[i + 1], of_cable[i + 2], of_cable[i], step.state.time);
+  }
+
+  void SectionForces::measure_wire(Section &section, const StepView &step)
+  {
+    const Wire &wire = step.scene.wires[section.index];
     for (Motion *const motion : {&section.axial, &section.across, &section.slope, &section.lateral,
                                  &section.lateral_slope})
     {
@@ -122,8 +184,6 @@ namespace taut
                             evaluate(motion->at_nodes[i], step.state.U);
       step.structure.communicator().sum(motion->values);
     }
-    const double d = section.diameter,
-                 modulus = dealii::numbers::PI * d * d * d / 32.; // I / (d / 2)
     for (std::size_t i = 0; i + 1 < section.nodes.size(); ++i)
     {
       const double h = section.nodes[i + 1] - section.nodes[i];
@@ -143,17 +203,11 @@ namespace taut
                      a = theta.values[i], b = theta.values[i + 1];
         return second ? -difference + (2. * a + 4. * b) / h : difference - (4. * a + 2. * b) / h;
       };
-      section.force.take(N, section.x[i], step.state.time);
       for (const bool second : {false, true})
-      {
-        const double x = section.x[second ? i + 1 : i],
-                     M = section.EI *
-                         std::hypot(curvature(section.across, section.slope, second),
-                                    curvature(section.lateral, section.lateral_slope, second));
-        section.moment.take(M, x, step.state.time);
-        if (section.area > 0. && modulus > 0.)
-          section.stress.take(N / section.area + M / modulus, x, step.state.time);
-      }
+        take(section, N,
+             section.EI * std::hypot(curvature(section.across, section.slope, second),
+                                     curvature(section.lateral, section.lateral_slope, second)),
+             section.x[second ? i + 1 : i], step.state.time);
     }
   }
 
@@ -188,8 +242,9 @@ namespace taut
         return to_text(std::setprecision(4), peak.value / size, unit, " at x = ", peak.x,
                        " m, t = ", peak.time, " s");
       };
-      log << "Section of wire '" << wires[i] << "': largest tension " << text(s.force, 1., " N")
-          << "; bending moment " << text(s.moment, 1., " N m");
+      log << "Section of " << (s.is_cable ? "cable" : "wire") << " '" << wires[i]
+          << "': largest tension " << text(s.force, 1., " N") << "; bending moment "
+          << text(s.moment, 1., " N m");
       if (!areas.empty())
         log << "; stress " << text(s.stress, per_MPa, " N/mm^2");
       log << '\n';
@@ -211,9 +266,9 @@ namespace taut
 
   namespace
   {
-    const Register<Observer, SectionForces>
-        registration("section forces",
-                     "largest tension, bending moment and stress of wires, with place and "
-                     "time, in the log, statistics.json and sweeps");
+    const Register<Observer, SectionForces> registration(
+        "section forces",
+        "largest tension, bending moment and stress of wires and cables, with place and "
+        "time, in the log, statistics.json and sweeps");
   }
 } // namespace taut

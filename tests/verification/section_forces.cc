@@ -111,3 +111,34 @@ TEST(SectionForces, of_wires_that_are_not_there_are_refused)
   EXPECT_TRUE(has(error("Diameters=12"), "both Section areas and Diameters"));
   EXPECT_TRUE(has(error("Diameters=12, 13"), "2 values for 1 wires"));
 }
+
+TEST(SectionForces, of_a_cable_that_hangs)
+{
+  // Straight down with a weight at its end; the upper end carries all.
+  const auto found = forces_of(
+      "Start = equilibrium\nGravity = 0, -9.81\nBody beam: Type = cable; From = 3, 0; To = 3, -10; "
+      "Unstressed length = 10; Held ends = from; Axial stiffness = 1e8; Mass per length = 1.5; "
+      "Element = bar\n"
+      "Load weight: On = beam @ 10; Direction = 0, -1; Magnitude = 200\n"
+      "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
+      "Output/section forces: Wires = beam; Section areas = 20; Diameters = 5\n");
+  const double T = 200. + 1.5 * 9.81 * 10.;
+  EXPECT_NEAR(value(found, "largest tension"), T, 1e-5 * T);
+  EXPECT_NEAR(value(found, "x of the largest tension"), 3., 1e-9);
+  EXPECT_NEAR(value(found, "largest stress"), T / 20., 1e-5 * T);
+  EXPECT_EQ(value(found, "largest bending moment"), 0.);
+}
+
+TEST(SectionForces, of_a_cable_that_is_clamped)
+{
+  // A stiff cantilever that hardly bends: force times length at the clamp.
+  const auto found = forces_of(
+      "Start = equilibrium\nGravity = 0, 0\nBody beam: Type = cable; From = 2, 0; To = 6, 0; "
+      "Unstressed length = 4; Held ends = from; Clamped = true; Axial stiffness = 1e7; "
+      "Bending stiffness = 1e4; Mass per length = 1\n"
+      "Load push: On = beam @ 4; Direction = 0, 1; Magnitude = 5\n"
+      "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
+      "Output/section forces: Wires = beam\n");
+  EXPECT_NEAR(value(found, "largest bending moment"), 20., 1e-3 * 20.);
+  EXPECT_NEAR(value(found, "x of the largest bending moment"), 2., 1e-9);
+}

@@ -131,6 +131,20 @@ namespace taut
 
     bool is_in_tension(const std::vector<double> &U) const override;
 
+    /// What a section of the cable carries, without what axial damping adds.
+    struct Section
+    {
+      Coordinates place;   ///< displaced, in the scene [m]
+      double tension = 0.; ///< [N]
+      double moment = 0.;  ///< EI kappa; 0 for bars [N m]
+    };
+
+    /// Number of the sections: all nodes and middles of elements.
+    std::size_t n_sections() const { return 2 * element.n_elements() + 1; }
+
+    /// At a displacement U, from `from` to `to`.
+    std::vector<Section> sections(const std::vector<double> &U) const;
+
     void check_at_rest(const std::vector<double> &U) const override;
 
     double axial_stiffness() const override { return data.section.axial_stiffness; }
