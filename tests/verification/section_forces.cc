@@ -85,7 +85,7 @@ TEST(SectionForces, of_a_bar)
       "Gravity = 0, 0; Start = equilibrium\nWire beam: To = 4, 0; Components = bar; Element size = "
       "0.5; Mass per length = 1; Axial stiffness = 1e6\n"
       "Support wall: Wire = beam; Positions = 0; Motion = axial\n"
-      "Load pull: Type = point; On = beam @ 4; Direction = 1, 0; Magnitude = 300\n"
+      "Load pull: Type = point; On = beam @ 4, 0; Direction = 1, 0; Magnitude = 300\n"
       "Time: Step = 1e-3; End = 1e-3\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam\n");
   EXPECT_NEAR(value(found, "largest tension"), 300., 1e-8);
@@ -105,7 +105,7 @@ TEST(SectionForces, of_wires_that_are_not_there_are_refused)
           session.run();
         });
   };
-  EXPECT_TRUE(has(error("Wires=bean"), "there is no wire 'bean'; did you mean 'beam'"))
+  EXPECT_TRUE(has(error("Wires=bean"), "there is no wire or cable 'bean'; did you mean 'beam'"))
       << error("Wires=bean");
   EXPECT_TRUE(has(error("Wires="), "name the wires")) << error("Wires=");
   EXPECT_TRUE(has(error("Diameters=12"), "both Section areas and Diameters"));
@@ -119,7 +119,7 @@ TEST(SectionForces, of_a_cable_that_hangs)
       "Start = equilibrium\nGravity = 0, -9.81\nBody beam: Type = cable; From = 3, 0; To = 3, -10; "
       "Unstressed length = 10; Held ends = from; Axial stiffness = 1e8; Mass per length = 1.5; "
       "Element = bar\n"
-      "Load weight: On = beam @ 10; Direction = 0, -1; Magnitude = 200\n"
+      "Load weight: On = beam @ 10, 0; Direction = 0, -1; Magnitude = 200\n"
       "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam; Section areas = 20; Diameters = 5\n");
   const double T = 200. + 1.5 * 9.81 * 10.;
@@ -136,7 +136,7 @@ TEST(SectionForces, of_a_cable_that_is_clamped)
       "Start = equilibrium\nGravity = 0, 0\nBody beam: Type = cable; From = 2, 0; To = 6, 0; "
       "Unstressed length = 4; Held ends = from; Clamped = true; Axial stiffness = 1e7; "
       "Bending stiffness = 1e4; Mass per length = 1\n"
-      "Load push: On = beam @ 4; Direction = 0, 1; Magnitude = 5\n"
+      "Load push: On = beam @ 4, 0; Direction = 0, 1; Magnitude = 5\n"
       "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam\n");
   EXPECT_NEAR(value(found, "largest bending moment"), 20., 1e-3 * 20.);
