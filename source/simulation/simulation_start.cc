@@ -283,7 +283,10 @@ namespace taut
            << start.geometric_gap[i];
       // A force makes droppers longer, other links shorter.
       const double elongation = link.elongation(start.multiplier[i]);
-      if (link.unstressed_length > 0.)
+      // A rope is inclined: its ends come apart by more than it stretches.
+      if (link.form.pull > 0.)
+        file << link.unstressed_length << link.length;
+      else if (link.unstressed_length > 0.)
         file << link.unstressed_length
              << link.unstressed_length +
                     (link.kind == LinkKind::dropper ? elongation : -elongation);
