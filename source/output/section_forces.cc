@@ -61,7 +61,7 @@ namespace taut
                       List(not_negative(), 0));
   }
 
-  void SectionForces::begin(const StepView &step)
+  void SectionForces::find_sections(const StepView &step)
   {
     if (wires.empty())
       throw EntryError(std::string(path) + "/Wires", "name the wires whose forces are wanted");
@@ -132,7 +132,7 @@ namespace taut
   void SectionForces::record(const StepView &step)
   {
     if (sections.empty())
-      step.structure.communicator().agree([&] { begin(step); });
+      step.structure.communicator().agree([&] { find_sections(step); });
     for (Section &section : sections)
       if (section.is_cable)
         measure_cable(section, step);
@@ -259,7 +259,7 @@ namespace taut
 
   void SectionForces::resume(InputArchive &archive, const StepView &step)
   {
-    step.structure.communicator().agree([&] { begin(step); });
+    step.structure.communicator().agree([&] { find_sections(step); });
     for (Section &section : sections)
       archive >> section.force >> section.moment >> section.stress;
   }

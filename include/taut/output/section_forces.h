@@ -63,7 +63,7 @@ namespace taut
       Peak force, moment, stress;
     };
 
-    void begin(const StepView &step);
+    void find_sections(const StepView &step);
     Section section_of(std::size_t i, const StepView &step) const;
     void set_motions(Section &section, const StepView &step) const;
     void measure_wire(Section &section, const StepView &step);
