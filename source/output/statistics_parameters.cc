@@ -115,9 +115,8 @@ namespace taut
 
   void StatisticsParameters::check() const
   {
-    for (const auto &[curve, entry] :
-         {std::make_pair(&least_mean, "Statistics/Least mean force"),
-          std::make_pair(&largest_mean, "Statistics/Largest mean force")})
+    for (const auto &[curve, entry] : {std::pair(&least_mean, "Statistics/Least mean force"),
+                                       {&largest_mean, "Statistics/Largest mean force"}})
       if (!curve->empty() && curve->size() % 3 != 2)
         throw EntryError(entry, "it has " + std::to_string(curve->size()) +
                                     " numbers; give 'a, b' for a v^2 + b, or 'a, b, v1, c, d' "
