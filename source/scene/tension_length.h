@@ -64,6 +64,7 @@ namespace taut
                     const std::function<bool(std::size_t)> &is_held);
     void check_droppers() const;
     void check_mid_points() const;
+    void check_rail() const;
     std::string named(const std::string &what) const;
 
     const LineItems &items;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace taut
 {
@@ -240,13 +241,31 @@ namespace taut
                        "Pre-sag instead");
   }
 
+  /// A rail has no messenger wire, and moves in the plane.
+  void TensionLength::check_rail() const
+  {
+    if (!(items.supports.arm_stiffness > 0.))
+      throw EntryError("Catenary/Supports/Arm stiffness",
+                       "a conductor rail rests on the springs of its arms; give it one in N/m");
+    if (items.supports.has_rigid_arms())
+      throw EntryError("Catenary/Supports/Arm kind",
+                       "a conductor rail moves in the plane; take 'hinged' or 'point mass'");
+    for (const LineMast &mast : line.masts)
+      for (const auto &[value, entry] : {std::pair(mast.stitch_length, "/Stitch lengths"),
+                                         {mast.mid_point, "/Mid-points"},
+                                         {mast.contact_z, "/Contact wire/Stagger"},
+                                         {mast.messenger_z, "/Messenger wire/Stagger"}})
+        if (value != 0.)
+          throw EntryError(section + entry,
+                           "a conductor rail has no messenger wire, and moves in the plane; leave "
+                           "it out");
+  }
+
   void TensionLength::check() const
   {
     if (items.is_rail)
     {
-      if (!(items.supports.arm_stiffness > 0.))
-        throw EntryError("Catenary/Supports/Arm stiffness",
-                         "a conductor rail rests on the springs of its arms; give it one in N/m");
+      check_rail();
       return;
     }
     for (std::size_t i = 0; i < line.masts.size(); ++i)

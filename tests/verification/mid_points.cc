@@ -175,6 +175,14 @@ TEST(MidPoint, ropes_that_are_none_are_refused)
   EXPECT_TRUE(has(error(line, "Catenary/Mid-point ropes/Axial stiffness=0"), "give that of the"));
   EXPECT_TRUE(
       has(error(line, "Catenary/Mid-point ropes/Messenger distance=20"), "run outwards from"));
+  const std::string rail = "Generator = catenary\nCatenary: Kind = conductor rail; Pantographs =\n"
+                           "Catenary/Contact wire: Mass per length = 6; Tension = 0\n"
+                           "Catenary/Supports: Arm stiffness = 1e6\nTime: Step = 1; End = 0\n";
+  EXPECT_EQ(error(rail, "Catenary/Mid-points=0"), "");
+  for (const char *const entry :
+       {"Catenary/Mid-points=9", "Catenary/Stitch lengths=9", "Catenary/Contact wire/Stagger=0.3",
+        "Catenary/Messenger wire/Stagger=0.3", "Catenary/Supports/Arm kind=rigid body"})
+    EXPECT_TRUE(has(error(rail, entry), "moves in the plane")) << entry;
   EXPECT_TRUE(has(error(strings, "Network/Link rope/To=lower @ 20"), "above each other"));
   EXPECT_TRUE(has(error(strings, "Network/Link rope/Find length=false"), "'Find length = true'"));
   EXPECT_TRUE(
