@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a speed that changes in time moves contacts, loads and pantographs along its integral.
-// Sources: a constant speed as a number; an accelerated force on a string in closed form.
+// Sources: a constant speed as a number, and two in turn; an accelerated force on a string in
+// closed form.
 #include "scene_tests.h"
 
 using namespace verification;
@@ -53,6 +54,34 @@ Time: Scheme = Newmark; Step = 1e-3; End = 2
     figure("accelerated force on a string, error over the largest displacement", error / size);
     EXPECT_NEAR(size, force * 2. / (2. * mass * c), .02 * size);
     EXPECT_LT(error, 2e-3 * size);
+  }
+
+  TEST(SpeedInTime, a_run_in_pieces)
+  {
+    // The speed jumps from 4 to 8 m/s inside of a step: two forces of constant speed in turn, the
+    // second of which comes from where it takes over.
+    const double jump = 1.0005;
+    const std::string at = number(jump);
+    const auto probed = [](const std::string &scene)
+    {
+      return history_of(scene, {},
+                        [](const taut::StepView &view)
+                        {
+                          double sum = 0.;
+                          for (const double x : {50., 62., 66.5, 71.})
+                            sum += x * displacement(view, 0, x);
+                          return sum;
+                        });
+    };
+    const std::vector<double> whole = probed(string_under_load("if(t < " + at + ", 4, 8)")),
+                              pieces =
+                                  probed(string_under_load("4") + "Load push: Magnitude = if(t < " +
+                                         at + ", 10, 0)\nLoad then: Type = moving; On = string @ " +
+                                         number(begin - 4. * jump) +
+                                         "; Speed = 8; Magnitude = if(t < " + at + ", 0, 10)\n"),
+                              constant = probed(string_under_load("4"));
+    EXPECT_LT(largest_difference(whole, pieces), 1e-10 * largest(whole));
+    EXPECT_GT(largest_difference(whole, constant), 1e-2 * largest(whole));
   }
 
   std::string roller(const std::string &speed)
