@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/scene/travel.h>
+#include <taut/substructure/motion_rate.h>
 
 #include <deal.II/lac/lapack_templates.h>
 
@@ -118,7 +120,33 @@ namespace taut
       else
         constrained.back().motion = [u, mass](const double t)
         { return u(mass.position.x + way(mass, t), t); };
+      check_start(mass, dofs[i], constrained.back());
     }
+  }
+
+  /// A given start of a prescribed motion has to be that of the motion.
+  void Mechanism::check_start(const Mass &mass, const Dof &dof, const ConstrainedDof &prescribed)
+  {
+    // For numbers with five digits; the length of a step, for differences.
+    constexpr double digits = 1e-5, step = 1e-3;
+    constexpr const char *names[] = {"x", "y", "rotation", "z"};
+    const std::string name = names[dof.motion];
+    const auto check =
+        [&](const double given, const double right, const char *const entry, const char *const unit)
+    {
+      if (given == 0. || std::fabs(given - right) <= digits * std::fabs(right))
+        return;
+      throw EntryError(mass.origin + "/" + entry,
+                       to_text("mass '", mass.name, "': the ", name, " of its start is ", given,
+                               unit, ", and its Prescribed ", name, " has ", right, unit,
+                               " at t = 0. Set it to that or to 0"));
+    };
+    const bool turns = dof.motion == 2;
+    check(dof.displacement, prescribed.at(0.), "Initial displacement", turns ? " rad" : " m");
+    check(dof.velocity,
+          prescribed.motion && dof.velocity != 0. ? rate_of_motion(prescribed.motion, 0., step)
+                                                  : 0.,
+          "Initial velocity", turns ? " rad/s" : " m/s");
   }
 
   void Mechanism::motion(const std::size_t mass, const bool rotational,

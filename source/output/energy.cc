@@ -81,12 +81,26 @@ namespace taut
       body.external_force(state.time, P[k]);
       CV[k].assign(body.n_dofs(), 0.);
       impulses[k].assign(body.n_dofs(), 0.);
-      body.damping().vmult_add(1., state.V[k].data(), CV[k].data());
+      product = state.V[k];
+      set_prescribed_velocities(step, k, product);
+      body.damping().vmult_add(1., product.data(), CV[k].data());
       for (std::size_t i = 0; i < P[k].size(); ++i)
         balance[k][i] = P[k][i] - CV[k][i] - step.reference.force[k][i] - state.KU[k][i];
     }
     step.constraints.add_forces(in_balance, balance);
     step.constraints.add_forces(impulsive, impulses);
+  }
+
+  /// The velocities of prescribed motions in the equation of motion, see PrescribedMotions.
+  void Energy::set_prescribed_velocities(const StepView &step, const std::size_t k,
+                                         std::vector<double> &V) const
+  {
+    const State &state = step.state;
+    if (!(state.last_step > 0.) || !step.structure[k].has_moving_constraints())
+      return;
+    for (const ConstrainedDof &constraint : step.structure[k].constraints())
+      if (const unsigned int i = constraint.dof; constraint.motion)
+        V[i] = state.dU[k][i] / state.last_step + .5 * (state.V[k][i] - state.V_old[k][i]);
   }
 
   void Energy::add_bodies(const StepView &step, Balance &share)
@@ -135,6 +149,7 @@ namespace taut
       // The equation of motion holds for the velocities before their projection.
       for (std::size_t i = 0; i < n; ++i)
         a[i] = state.V_old[k][i] + state.last_step * state.A[k][i];
+      set_prescribed_velocities(step, k, a);
       damping.assign(n, 0.);
       body.damping().vmult_add(1., a.data(), damping.data());
     }
@@ -159,6 +174,14 @@ namespace taut
       const unsigned int i = constraint.dof;
       share.supports += dU[i] * (product[i] - (1. - c.alpha_f) * balance[k][i] -
                                  c.alpha_f * balance0[k][i] - impulses[k][i]);
+      if (!constraint.motion)
+        continue;
+      // Inertia takes its energy from the velocities, which a kink or a jump does not divide as the
+      // way.
+      const double inertial =
+          product[i] * (.5 * state.last_step * (state.V_old[k][i] + state.V[k][i]) - dU[i]);
+      share.supports += inertial;
+      share.algorithmic += inertial;
     }
   }
 

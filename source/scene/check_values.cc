@@ -131,7 +131,8 @@ namespace taut
         for (const double value : mass.velocity)
           of.finite(value, "Initial velocity");
         if (std::none_of(std::begin(mass.moves), std::end(mass.moves), [](bool m) { return m; }))
-          fail(mass, "Motions", "mass '", mass.name, "': it has none; name at least one");
+          fail(mass, "Motions", "mass '", mass.name,
+               "': it has none; name at least one, or prescribe one");
       }
       for (const Spring &spring : scene.springs)
       {

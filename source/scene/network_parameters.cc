@@ -129,8 +129,10 @@ namespace taut
   void Network::MassItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Position", position, "'x, y' or 'x, y, z' [m]", coordinates());
-    prm.add_parameter("Motions", motions, "Free motions: x, y, rotation (about z), z",
-                      List(Selection("x|y|rotation|z"), 1, 4));
+    prm.add_parameter("Motions", motions,
+                      "Free motions: x, y, rotation (about z), z; "
+                      "may be empty if a motion is prescribed",
+                      List(Selection("x|y|rotation|z"), 0, 4));
     prm.add_parameter("Mass", mass, "[kg]", not_negative());
     prm.add_parameter("Inertia", inertia, "About z [kg m^2]", not_negative());
     prm.add_parameter("Weight", weight, "Whether gravity acts on it");

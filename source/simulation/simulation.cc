@@ -15,6 +15,7 @@
 #include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>
+#include <taut/output/jump_watch.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/output/slack_monitor.h>
@@ -234,7 +235,10 @@ namespace taut
                                                output.subdivisions));
     observed->observe(std::make_unique<SlackMonitor>());
     if (has_time())
+    {
       observed->observe(std::make_unique<ImpactWatch>());
+      observed->observe(std::make_unique<JumpWatch>());
+    }
     // At least a hundred times in a run, and too seldom to cost time.
     limits = std::make_unique<ModelLimits>(
         model, bodies, has_time() ? parameters.statistics.filter_frequency : 0., parameters.step,

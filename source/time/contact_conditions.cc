@@ -46,15 +46,16 @@ namespace taut
   }
 
   void ContactConditions::set_problem(const State &before, const StepEquations &system,
-                                      const BodyVectors &P, const BodyVectors *const lift)
+                                      const BodyVectors &P, const PrescribedMotions &prescribed)
   {
     if (system.has_modes())
       system.set_modes(P, problem);
     if (constraints.size() == 0)
       return;
-    gap_tracker.predict(before, system, P, lift);
+    gap_tracker.predict(before, system, P, prescribed.lift());
     if (c.mean_force)
       gap_rates.begin(before);
+    set_rates_of_prescribed(prescribed.lift_of_velocities());
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const double history = link_springs.begin(i, before), gap = gap_tracker.free_gap(i, before);
@@ -67,6 +68,15 @@ namespace taut
     }
   }
 
+  void ContactConditions::set_rates_of_prescribed(const BodyVectors *const lift)
+  {
+    of_prescribed.assign(lift ? constraints.size() : 0, 0.);
+    if (!lift)
+      return;
+    constraints.share_of_motions(*lift, of_prescribed);
+    structure.communicator().sum(of_prescribed);
+  }
+
   /// Sets (1 - alpha_f) step (D' + e D'_0) without multipliers.
   void ContactConditions::set_velocity_condition(const std::size_t i, const State &before)
   {
@@ -74,6 +84,8 @@ namespace taut
     problem.free_gap[i] =
         gap_tracker.increments()[i] - (1. - theta) * step * gap_rates.velocities()[i] +
         theta * (gap_rates.of_convection(i) + rebound * step * before.gap_rate[i]);
+    if (!of_prescribed.empty())
+      problem.free_gap[i] += of_prescribed[i];
     if (!constraints[i].cone.may_open())
       return;
     const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;

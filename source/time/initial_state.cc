@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/time/initial_state.h>
+#include <taut/time/prescribed_motions.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/turning_constraints.h>
 
@@ -198,7 +199,8 @@ namespace taut
   } // namespace
 
   InitialState find_initial_state(Structure &structure, Constraints &constraints,
-                                  const SolverParameters &parameters, const Start start)
+                                  const SolverParameters &parameters, const Start start,
+                                  const double step)
   {
     check_bodies(structure);
     constraints.update(0.);
@@ -239,14 +241,14 @@ namespace taut
               for (const ConstrainedDof &constraint : structure[k].constraints())
               {
                 state.U[k][constraint.dof] = constraint.at(0.);
-                if (!constraint.motion)
-                  state.V[k][constraint.dof] = 0.;
+                state.V[k][constraint.dof] = 0.;
               }
               structure[k].internal_force(state.U[k], {}, state.KU[k]);
               for (std::size_t i = 0; i < state.KU[k].size(); ++i)
                 state.KU[k][i] -= result.reference.force[k][i];
             }
           }
+          set_prescribed_velocities(structure, step, state);
         });
     set_rows(structure, constraints, start, result);
     if (start != Start::equilibrium)

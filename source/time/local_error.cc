@@ -39,6 +39,8 @@ namespace taut
                                   : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
       impulse[i] = of.c.velocity_projection ? step * (V[i] - V0[i] - step * A[i]) : 0.;
     }
+    for (const ConstrainedDof &constraint : structure[k].constraints())
+      motion[constraint.dof] = impulse[constraint.dof] = 0.;
   }
 
   /// Multipliers of internal constraints are no motions, and may be rounding.

@@ -59,6 +59,14 @@ namespace taut
     }
   }
 
+  void NonlinearBodies::prescribe(const PrescribedMotions &motions)
+  {
+    for (const std::size_t k : bodies)
+      motions.visit(k, 0, steps[k].known_V.size(),
+                    [&](const unsigned int i, const double V, double)
+                    { steps[k].known_V[i] = V - c.velocity * motions.increments(k)[i]; });
+  }
+
   std::unique_ptr<SymmetricMatrix> NonlinearBodies::tangent(const std::size_t k,
                                                             const int attempt) const
   {

@@ -82,7 +82,7 @@ namespace taut
   {
     double change = 0.;
     BodyVectors &dU = step.history().increments();
-    step.history().impose_lift(dU);
+    step.history().prescribed().impose_increments(dU);
     structure.communicator().agree(
         [&]
         {
@@ -125,6 +125,7 @@ namespace taut
         step.equations().interface().update_moving();
       step.costs().lap(own.tangents_are_kept ? StepPart::moving_rows : StepPart::factors);
       step.set_loads(state);
+      own.nonlinear.prescribe(step.history().prescribed());
       own.loads = step.history().loads();
     }
 

@@ -101,7 +101,7 @@ namespace taut
 
   void Step::find_increments(State &state, Certificate &certificate)
   {
-    own_conditions.set_problem(state, equations(), own_history.loads(), own_history.lift());
+    own_conditions.set_problem(state, equations(), own_history.loads(), own_history.prescribed());
     own_costs.lap(StepPart::free_gaps);
     if (constraints.size() > 0 || equations().has_modes())
     {
@@ -145,8 +145,12 @@ namespace taut
     structure.communicator().agree(
         [&]
         {
+          if (!c.is_at_rest())
+            own_history.prescribed().impose_velocities_of_step(state);
           own_balance.measure(c, own_history.forces(), own_conditions.in_balance(),
                               own_conditions.impulsive(), state, rows);
+          if (!c.is_at_rest())
+            own_history.prescribed().impose_velocities(state);
         });
     certificate.balance = structure.communicator().max(own_balance.residual());
   }

@@ -47,10 +47,9 @@ namespace taut
   } // namespace
 
   StepHistory::StepHistory(const Structure &structure, const Reference &reference)
-      : structure(structure), reference(reference)
+      : structure(structure), reference(reference), motions(structure, reference)
   {
-    for (BodyVectors *v :
-         {&step_forces.P, &shared, &prescribed, &step_forces.old_A, &step_forces.old_balance})
+    for (BodyVectors *v : {&step_forces.P, &shared, &step_forces.old_A, &step_forces.old_balance})
       *v = structure.zero();
     step_forces.external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -80,25 +79,10 @@ namespace taut
     step_forces.external_size[k] = largest(body, P);
   }
 
-  /// Returns whether a prescribed increment of the body is not zero. What does not move in time is
-  /// where it belongs after its first increment.
-  bool StepHistory::set_prescribed(const std::size_t k, const State &state)
-  {
-    bool any = false;
-    for (const ConstrainedDof &constraint : structure[k].constraints())
-    {
-      const unsigned int dof = constraint.dof;
-      prescribed[k][dof] =
-          constraint.at(state.time) - (reference.displacement[k][dof] + state.U[k][dof]);
-      any = any || prescribed[k][dof] != 0.;
-    }
-    return any;
-  }
-
   void StepHistory::set_loads(const StepCoefficients &c, const StepEquations &equations,
                               State &state)
   {
-    lifts = false;
+    motions.set(c, state);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -106,10 +90,8 @@ namespace taut
         set_external_force(k, state.time);
       equations.bodies().remove_rounding(k, state.KU[k], state.balance[k]);
       set_load(k, c, state);
-      if (!body.has_displaced_constraints() || !set_prescribed(k, state))
-        continue;
-      lifts = true;
-      equations.lift(k, prescribed[k], shared[k]);
+      if (motions.lifts_body(k))
+        equations.lift(k, motions.increments(k), shared[k]);
     }
   }
 
@@ -118,7 +100,8 @@ namespace taut
     const Substructure &body = structure[k];
     const Predictor known(c, state.V[k], state.A[k], state.dU[k], state.V_old[k]);
     const bool old_forces_count = c.alpha_m != 0. || c.alpha_f != 0.,
-               velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
+               moves = body.has_moving_constraints() && !c.is_at_rest(),
+               velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0. || moves;
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const double *A = state.A[k].data(), *p = step_forces.P[k].data(), *KU = state.KU[k].data(),
                  *r = state.balance[k].data();
@@ -138,6 +121,15 @@ namespace taut
                                       a[i] = old_forces_count ? now * a0 + old * A[i] : a0;
                                     });
                       });
+                  if (moves)
+                    motions.visit(k, done, reached,
+                                  [&](const unsigned int i, const double V, const double A)
+                                  {
+                                    const double du = motions.increments(k)[i];
+                                    v[i] = V - c.velocity * du;
+                                    a[i] =
+                                        now * A + old * state.A[k][i] - now * c.acceleration * du;
+                                  });
                   done = reached;
                   if (velocity_is_known)
                     body.damping().vmult_rows(begin, end, v, Cv);
@@ -159,14 +151,6 @@ namespace taut
                 });
   }
 
-  void StepHistory::impose_lift(BodyVectors &dU) const
-  {
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      if (structure[k].has_displaced_constraints())
-        for (const ConstrainedDof &constraint : structure[k].constraints())
-          dU[k][constraint.dof] = prescribed[k][constraint.dof];
-  }
-
   void StepHistory::exchange(State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -176,7 +160,7 @@ namespace taut
       step_forces.old_A[k].swap(state.A[k]);
       step_forces.old_balance[k].swap(state.balance[k]);
     }
-    impose_lift(state.dU);
+    motions.impose_increments(state.dU);
   }
 
   /// shared has the old increments; state.V has V_{-1} until the new velocity replaces it.
@@ -195,6 +179,13 @@ namespace taut
     const std::vector<double> &old_dU = shared[k], &older_V = state.V[k];
     const Predictor known(c, state.V_old[k], step_forces.old_A[k], old_dU, older_V);
     vectorised([=] { known.visit(begin, end, visitor); });
+    if (structure[k].has_moving_constraints() && !c.is_at_rest())
+      motions.visit(k, begin, end,
+                    [&](const unsigned int i, const double mean_v, const double a)
+                    {
+                      V[i] = mean_v;
+                      A[i] = a;
+                    });
   }
 
   void StepHistory::set_lacking(const StepCoefficients &c, const StepEquations &equations,

@@ -7,7 +7,8 @@ namespace taut
   SteppedMotion::SteppedMotion(Structure &structure, Constraints &constraints,
                                const StepperOptions &options)
       : structure(structure), constraints(constraints), options(options),
-        initial(find_initial_state(structure, constraints, options.solver, options.start)),
+        initial(find_initial_state(structure, constraints, options.solver, options.start,
+                                   options.step)),
         contact_measures(structure, constraints, initial.reference, initial.state)
   {
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());

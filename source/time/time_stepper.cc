@@ -110,6 +110,7 @@ namespace taut
   void TimeStepper::begin_step(const double end)
   {
     step.conditions().begin_step(current.last_step == 0.);
+    step.history().prescribed().begin_step(current.last_step);
     const double start = current.time;
     current.time = end;
     current.last_step = clock.step();

@@ -47,6 +47,7 @@ namespace taut
     void add_springs(const Scene &scene);
     void add_loads(const Scene &scene);
     void prescribe_motions(const Scene &scene);
+    static void check_start(const Mass &mass, const Dof &dof, const ConstrainedDof &prescribed);
 
     std::vector<Dof> dofs;
   };

@@ -65,6 +65,8 @@ namespace taut
     void add_rows(const StepView &step);
     void keep(const StepView &step);
     void set_forces(const StepView &step);
+    void set_prescribed_velocities(const StepView &step, std::size_t k,
+                                   std::vector<double> &V) const;
     void write(double time);
 
     std::unique_ptr<TableFile> file;

@@ -6,6 +6,7 @@
 #include <taut/time/gap_rates.h>
 #include <taut/time/gap_tracker.h>
 #include <taut/time/link_springs.h>
+#include <taut/time/prescribed_motions.h>
 
 #include <vector>
 
@@ -42,9 +43,9 @@ namespace taut
     void begin_step(const bool first) { is_first = first; }
 
     /// Sets the problem of the step from the state before it. The constraints are in their places
-    /// at the end of the step, @p P is P^, @p lift the prescribed motion or null.
+    /// at the end of the step, @p P is P^.
     void set_problem(const State &before, const StepEquations &system, const BodyVectors &P,
-                     const BodyVectors *lift);
+                     const PrescribedMotions &prescribed);
 
     /// Solves the problem for multipliers L with A dU = P^ + B L. state.multiplier becomes the
     /// force at the end of the step, or the mean force over the step. Errors come from @p check,
@@ -112,6 +113,7 @@ namespace taut
       return mean[i] && !c.velocity_projection &&
              (c.velocity_level || !constraints[i].cone.may_open());
     }
+    void set_rates_of_prescribed(const BodyVectors *lift);
     void set_velocity_condition(std::size_t i, const State &before);
     void set_recomputed_gaps(const State &state);
     void add_decayed_columns(const ComplementarityOperator &F);
@@ -135,7 +137,8 @@ namespace taut
     MixedComplementarityProblem problem;
     MixedComplementaritySolution solved, correction;
     std::vector<double> balanced, impulses, previous_place;
-    const std::vector<double> none; ///< empty
+    std::vector<double> of_prescribed; ///< what increments lack for velocities; empty: nothing
+    const std::vector<double> none;    ///< empty
 
     /// The solution with gaps from the displacements, its residuals and their scales.
     struct Residual

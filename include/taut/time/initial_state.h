@@ -23,8 +23,8 @@ namespace taut
   /**
    * The start of a run at t = 0. An equilibrium is the reference itself, with U = 0; otherwise the
    * undeformed system is the reference. Given displacements and velocities come from
-   * Substructure::initial_state(). Prescribed DoFs start where they are at t = 0, without velocity
-   * unless they move.
+   * Substructure::initial_state(). Prescribed DoFs start where they are at t = 0, with the
+   * velocity that their motion has there; it is differentiated as for steps of length @p step [s].
    *
    * Bodies to be linearised move by large amounts until the reference is found. Then linear bodies
    * replace them in @p structure, see SlenderBody::linearised(). At an equilibrium this also
@@ -34,7 +34,7 @@ namespace taut
    * together.
    */
   InitialState find_initial_state(Structure &structure, Constraints &constraints,
-                                  const SolverParameters &parameters, Start start);
+                                  const SolverParameters &parameters, Start start, double step);
 } // namespace taut
 
 #endif

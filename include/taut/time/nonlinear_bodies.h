@@ -5,6 +5,7 @@
 #include <taut/substructure/factored_structure.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/prescribed_motions.h>
 #include <taut/time/state.h>
 
 #include <array>
@@ -40,6 +41,9 @@ namespace taut
 
     /// Begins a step [s] from a state. The first guess of its increments is zero.
     void begin(const State &before, const StepCoefficients &c, double step);
+
+    /// After begin(): sets the known velocities of DoFs with prescribed motions.
+    void prescribe(const PrescribedMotions &motions);
 
     /// The tangent of f at the last guess. @p attempt 0 is exact, 1 is definite, and from 2 on an
     /// increasing part of the mass matrix is added.

@@ -4,6 +4,7 @@
 
 #include <taut/time/balance_certificate.h>
 #include <taut/time/integrator.h>
+#include <taut/time/prescribed_motions.h>
 #include <taut/time/state.h>
 #include <taut/time/step_equations.h>
 
@@ -34,11 +35,8 @@ namespace taut
     /// dU, after StepEquations::find_increments() replaced loads().
     BodyVectors &increments() { return shared; }
 
-    /// Increments of prescribed DoFs; zero for other DoFs [m, rad]. Null: all are zero.
-    const BodyVectors *lift() const { return lifts ? &prescribed : nullptr; }
-
-    /// Sets the prescribed increments in @p dU.
-    void impose_lift(BodyVectors &dU) const;
+    const PrescribedMotions &prescribed() const { return motions; }
+    PrescribedMotions &prescribed() { return motions; }
 
     /// Exchanges the increments with the vectors of the state at the start of the step.
     void exchange(State &state);
@@ -58,16 +56,15 @@ namespace taut
 
   private:
     void set_external_force(std::size_t k, double time);
-    bool set_prescribed(std::size_t k, const State &state);
     void set_load(std::size_t k, const StepCoefficients &c, const State &state);
 
     const Structure &structure;
     const Reference &reference;
     StepForces step_forces;
-    BodyVectors shared, prescribed;
+    PrescribedMotions motions;
+    BodyVectors shared;
     std::vector<double> known_v, mean_a; ///< as long as the longest body
     std::vector<double> damping_of_tile, inertia_of_tile;
-    bool lifts = false;
   };
 } // namespace taut
 

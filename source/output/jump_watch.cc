@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/text.h>
+#include <taut/output/jump_watch.h>
+#include <taut/substructure/motion_rate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace taut
+{
+  void JumpWatch::start(const StepView &step)
+  {
+    for (std::size_t k = 0; k < step.structure.size(); ++k)
+      if (step.structure[k].has_moving_constraints())
+        moving.push_back(k);
+    some_move = step.structure.communicator().any(!moving.empty());
+    is_new = false;
+  }
+
+  /// Returns the largest jump in the step on this rank, as a part of a message. Sets @p presses to
+  /// 1 for constraints at DoFs that jump.
+  std::string JumpWatch::look(const StepView &step, std::vector<double> &presses)
+  {
+    const State &state = step.state;
+    std::string text;
+    double largest = 0.;
+    for (const std::size_t k : moving)
+      for (const ConstrainedDof &constraint : step.structure[k].constraints())
+      {
+        if (!constraint.motion)
+          continue;
+        const unsigned int dof = constraint.dof;
+        const double way = state.dU[k][dof],
+                     lack = way - .5 * state.last_step * (state.V_old[k][dof] + state.V[k][dof]);
+        const JumpOfMotion jump =
+            find_jump(constraint.motion, state.time - state.last_step, state.time, way, lack);
+        if (jump.size == 0.)
+          continue;
+        for (std::size_t i = 0; i < presses.size(); ++i)
+          for (const Term &term : step.constraints[i].terms)
+            if (term.substructure == k)
+              for (std::size_t e = 0; e < term.form.index.size(); ++e)
+                if (term.form.index[e] == dof && term.form.value[e] != 0.)
+                  presses[i] = 1.;
+        if (std::fabs(jump.size) <= largest)
+          continue;
+        largest = std::fabs(jump.size);
+        text = to_text("at t = ", jump.time, " s '", step.structure[k].name(), "' jumps by ",
+                       jump.size, step.structure[k].kind(dof) == 0 ? " m" : " rad");
+      }
+    return text;
+  }
+
+  void JumpWatch::record(const StepView &step)
+  {
+    if (is_new)
+    {
+      start(step);
+      return;
+    }
+    if (!some_move || !(step.state.last_step > 0.))
+      return;
+    const Communicator &processes = step.structure.communicator();
+    std::vector<double> presses(step.constraints.size(), 0.);
+    std::string own;
+    processes.agree([&] { own = look(step, presses); });
+    if (!processes.any(!own.empty()))
+      return;
+    ++n_steps;
+    const std::vector<std::string> all = processes.gather(own);
+    processes.sum(presses);
+    if (first.empty())
+      first = *std::find_if(all.begin(), all.end(),
+                            [](const std::string &text) { return !text.empty(); });
+    for (std::size_t i = 0; i < presses.size(); ++i)
+    {
+      const double P = std::fabs(step.state.multiplier[i]) * step.state.last_step;
+      if (presses[i] == 0. || !step.constraints[i].spring.is_rigid() || !(P > impulse))
+        continue;
+      impulse = P;
+      time_of_impulse = step.state.time;
+      pressed = step.constraints[i].name;
+    }
+  }
+
+  template <typename Archive>
+  void JumpWatch::store(Archive &archive)
+  {
+    archive &n_steps &first &pressed &impulse &time_of_impulse;
+  }
+
+  void JumpWatch::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void JumpWatch::resume(InputArchive &archive, const StepView &step)
+  {
+    start(step);
+    store(archive);
+  }
+
+  void JumpWatch::report(std::ostream &log, bool) const
+  {
+    if (n_steps == 0)
+      return;
+    log << to_text("Prescribed motions jump in ", n_steps,
+                   n_steps == 1 ? " step: " : " steps: ", n_steps == 1 ? "" : "first ", first,
+                   '\n');
+    if (impulse > 0.)
+      log << to_text("Warning: at t = ", time_of_impulse, " s the rigid link '", pressed,
+                     "' presses against a place that jumps, with an impulse of ", impulse,
+                     " N s: such an impulse grows with shorter steps. Let the place move within a "
+                     "time, or give the link a Stiffness\n");
+  }
+} // namespace taut
