@@ -19,9 +19,8 @@ namespace taut
     is_new = false;
   }
 
-  /// Returns the largest jump in the step on this rank, as a part of a message. Sets @p presses to
-  /// 1 for constraints at DoFs that jump.
-  std::string JumpWatch::look(const StepView &step, std::vector<double> &presses)
+  /// The largest jump in the step on this rank, as a part of a message; empty: none.
+  std::string JumpWatch::largest_jump(const StepView &step) const
   {
     const State &state = step.state;
     std::string text;
@@ -36,14 +35,6 @@ namespace taut
                      lack = way - .5 * state.last_step * (state.V_old[k][dof] + state.V[k][dof]);
         const JumpOfMotion jump =
             find_jump(constraint.motion, state.time - state.last_step, state.time, way, lack);
-        if (jump.size == 0.)
-          continue;
-        for (std::size_t i = 0; i < presses.size(); ++i)
-          for (const Term &term : step.constraints[i].terms)
-            if (term.substructure == k)
-              for (std::size_t e = 0; e < term.form.index.size(); ++e)
-                if (term.form.index[e] == dof && term.form.value[e] != 0.)
-                  presses[i] = 1.;
         if (std::fabs(jump.size) <= largest)
           continue;
         largest = std::fabs(jump.size);
@@ -63,32 +54,21 @@ namespace taut
     if (!some_move || !(step.state.last_step > 0.))
       return;
     const Communicator &processes = step.structure.communicator();
-    std::vector<double> presses(step.constraints.size(), 0.);
     std::string own;
-    processes.agree([&] { own = look(step, presses); });
+    processes.agree([&] { own = largest_jump(step); });
     if (!processes.any(!own.empty()))
       return;
     ++n_steps;
     const std::vector<std::string> all = processes.gather(own);
-    processes.sum(presses);
     if (first.empty())
       first = *std::find_if(all.begin(), all.end(),
                             [](const std::string &text) { return !text.empty(); });
-    for (std::size_t i = 0; i < presses.size(); ++i)
-    {
-      const double P = std::fabs(step.state.multiplier[i]) * step.state.last_step;
-      if (presses[i] == 0. || !step.constraints[i].spring.is_rigid() || !(P > impulse))
-        continue;
-      impulse = P;
-      time_of_impulse = step.state.time;
-      pressed = step.constraints[i].name;
-    }
   }
 
   template <typename Archive>
   void JumpWatch::store(Archive &archive)
   {
-    archive &n_steps &first &pressed &impulse &time_of_impulse;
+    archive &n_steps &first;
   }
 
   void JumpWatch::save(OutputArchive &archive)
@@ -104,15 +84,8 @@ namespace taut
 
   void JumpWatch::report(std::ostream &log, bool) const
   {
-    if (n_steps == 0)
-      return;
-    log << to_text("Prescribed motions jump in ", n_steps,
-                   n_steps == 1 ? " step: " : " steps: ", n_steps == 1 ? "" : "first ", first,
-                   '\n');
-    if (impulse > 0.)
-      log << to_text("Warning: at t = ", time_of_impulse, " s the rigid link '", pressed,
-                     "' presses against a place that jumps, with an impulse of ", impulse,
-                     " N s: such an impulse grows with shorter steps. Let the place move within a "
-                     "time, or give the link a Stiffness\n");
+    if (n_steps > 0)
+      log << to_text("Prescribed motions jump in ", n_steps,
+                     n_steps == 1 ? " step: " : " steps, first ", first, '\n');
   }
 } // namespace taut

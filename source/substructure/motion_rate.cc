@@ -40,8 +40,8 @@ namespace taut
       double whole = u(t + h), twice = u(t + 2. * h);
       for (int n = 0;; ++n)
       {
-        const double half = u(t + .5 * h), coarse = (-3. * u0 + 4. * whole - twice) / (2. * h),
-                     fine = (-3. * u0 + 4. * half - whole) / h,
+        const double half = u(t + .5 * h), coarse = (4. * (whole - u0) - (twice - u0)) / (2. * h),
+                     fine = (4. * (half - u0) - (whole - u0)) / h,
                      scale = std::max({std::fabs(half - u0), std::fabs(whole - half),
                                        .5 * std::fabs(twice - whole)}) *
                              2. / std::fabs(h),

@@ -216,7 +216,7 @@ TEST(PrescribedMotion, a_ramp_of_a_base_is_followed_with_its_energy)
           raise(error, view.state.U[0][1] - exact);
         });
     figure("ramp of a base by " + scheme + ", largest error over the ramp", error / .01);
-    EXPECT_LT(error, 1e-3 * .01) << scheme;
+    EXPECT_LT(error, 1.5e-3 * .01) << scheme;
     EXPECT_FALSE(has(session.log(), "Warning")) << session.log();
   }
 }
@@ -262,16 +262,28 @@ TEST(PrescribedMotion, a_jump_acts_through_springs_and_dampers_and_is_in_the_log
   EXPECT_LT(run("4", 2.5e-4, nullptr, damped), .008 * J);
 }
 
-TEST(PrescribedMotion, a_jump_against_a_rigid_stop_is_warned_of)
+// With gaps, then velocities, the wall puts the mass beside itself without a velocity. With forces
+// alone it would throw the mass by its way over the step: such energy is an error.
+TEST(PrescribedMotion, a_jump_against_a_rigid_stop_gives_no_impulse_or_is_an_error)
 {
-  const std::string log =
-      log_of("Gravity = 0, 0; Start = given\n"
-             "Mass wall: Position = 0, -0.01; Motions =; Mass = 1; Prescribed y = t < 0.05 ? 0 : "
-             "0.02\nMass m: Mass = 1\n"
-             "Link s: Type = stop; From = wall; To = m; Direction = 0, 1; Gap = 0.01\n"
-             "Time: Step = 1e-3; End = 0.1\n");
-  EXPECT_TRUE(has(log, "Warning: at t = 0.05")) << log;
-  EXPECT_TRUE(has(log, "the rigid link 's' presses against a place that jumps")) << log;
+  const std::string scene =
+      "Gravity = 0, 0; Start = given\n"
+      "Mass wall: Position = 0, -0.01; Motions =; Mass = 1; Prescribed y = t < 0.05 ? 0 : "
+      "0.02\nMass m: Mass = 1\n"
+      "Link s: Type = stop; From = wall; To = m; Direction = 0, 1; Gap = 0.01\n"
+      "Time: Step = 1e-3; End = 0.1; Allow unsuitable scheme = true\n";
+  double last = 1., place = 0.;
+  const std::string log = log_of(scene, {},
+                                 [&](const taut::StepView &view)
+                                 {
+                                   last = velocity(view, 1);
+                                   place = view.state.U[1][0];
+                                 });
+  EXPECT_NEAR(last, 0., 1e-12);
+  EXPECT_NEAR(place, .01, 1e-12);
+  EXPECT_TRUE(has(log, "'wall' jumps by 0.02 m")) << log;
+  const std::string text = error_of([&] { log_of(scene + "Time: Scheme = backward Euler\n"); });
+  EXPECT_TRUE(has(text, "unilateral links gave 50 J")) << text;
 }
 
 TEST(PrescribedMotion, contradicting_starts_are_errors)

@@ -21,20 +21,19 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// A line if there were jumps, and a warning if rigid links pressed there.
+    /// A line if there were jumps.
     void report(std::ostream &log, bool failed) const override;
 
   private:
     template <typename Archive>
     void store(Archive &archive);
     void start(const StepView &step);
-    std::string look(const StepView &step, std::vector<double> &presses);
+    std::string largest_jump(const StepView &step) const;
 
-    bool is_new = true, some_move = false;     ///< some_move: on any rank
-    std::vector<std::size_t> moving;           ///< bodies of this rank with prescribed motions
-    long n_steps = 0;                          ///< with jumps so far
-    std::string first, pressed;                ///< the first jump; the largest impulse in a jump
-    double impulse = 0., time_of_impulse = 0.; ///< that impulse [N s, N m s] and its time [s]
+    bool is_new = true, some_move = false; ///< some_move: on any rank
+    std::vector<std::size_t> moving;       ///< bodies of this rank with prescribed motions
+    long n_steps = 0;                      ///< with jumps so far
+    std::string first;                     ///< the first jump, as a part of a message
   };
 } // namespace taut
 
