@@ -86,7 +86,7 @@ def compared_spectrum(runs, labels, options):
     drawn = False
     for panel, (name, some) in zip(grid[:, 0], strips.items()):
         for i, strip in some:
-            inside = strip.evenly(strip.force)[strip.inside(options.window)]
+            inside = strip.force[strip.inside(options.window)]
             if len(inside) < 16 or np.ptp(inside) == 0:
                 continue
             drawn = True

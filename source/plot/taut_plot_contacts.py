@@ -31,14 +31,14 @@ def contact_force(results, options):
 def contact_panel(panel, strip, moves, window):
     """One strip: handles for the legend, and smallest and largest value drawn [N]."""
     at, unit = (strip.x, "m") if moves else (strip.time, "s")
-    force, evaluated = strip.force, strip.evaluated
-    lines = panel.plot(at, force, color=GREY, linewidth=0.5, label="contact force")
+    rows, force, evaluated = strip.rows[moves], strip.rows[2], strip.evaluated
+    lines = panel.plot(rows, force, color=GREY, linewidth=0.5, label="contact force")
     for (wire, share), colour in zip(strip.shares.items(), SHARES):
         lines += panel.plot(at, strip.low_passed(share), color=colour, linewidth=0.8, label=f"share of '{wire}'")
     if strip.frequency:
         what = "their sum, " if strip.shares else ""
-        lines += panel.plot(at, evaluated, color=BLUE, label=f"{what}low-passed at {strip.frequency:g} Hz")
-    for begin, end in spans(at, force == 0):
+        lines += panel.plot(at, evaluated, color=BLUE, label=f"{what}{strip.filter_text}")
+    for begin, end in spans(rows, force == 0):
         lines.append(panel.axvspan(begin, end, color=LOSS, alpha=0.4, linewidth=0.8, label="loss of contact"))
     panel.set_ylabel("contact force [N]")
     panel.margins(x=0)
@@ -56,8 +56,8 @@ def contact_panel(panel, strip, moves, window):
     title += rf": mean {mean:.1f} N, $\sigma$ {deviation:.1f} N"
     if not inside.all():
         title += f", {ends[0]:.0f} to {ends[1]:.0f} {unit}"
-    if (force[inside] == 0).any():
-        title += f", loss {100 * (force[inside] == 0).mean():.1f} %"
+    if (strip.force[inside] == 0).any():
+        title += f", loss {100 * (strip.force[inside] == 0).mean():.1f} %"
     panel.set_title(title, loc="left", pad=7)
     return lines, (min(force.min(), mean - 3 * deviation), max(force.max(), mean + 3 * deviation))
 
@@ -74,7 +74,7 @@ def force_spectrum(results, options):
         if inside.sum() < 16:
             panel.set_title(f"{strip.name}: too few samples in the window", loc="left")
             continue
-        frequencies, power = power_spectrum(strip.evenly(strip.force)[inside], strip.step)
+        frequencies, power = power_spectrum(strip.force[inside], strip.step)
         limits = bands(strip.frequency, options.bands)
         shown = (frequencies > 0) & (frequencies <= 2 * limits[-1])
         if not (power[shown] > 0).any():
@@ -119,8 +119,7 @@ def force_histogram(results, options):
         panel.set_ylabel("samples [%]")
     if not handles:
         return None, "no contact force that changes in the window"
-    frequency = strips[0].frequency
-    grid[-1, 0].set_xlabel("contact force" + (f", low-passed at {frequency:g} Hz" if frequency else "") + " [N]")
+    grid[-1, 0].set_xlabel(f"contact force, {strips[0].filter_text} [N]")
     legend_below(grid[-1, 0], 1.6, handles)
     return figure, None
 
@@ -146,7 +145,7 @@ def force_by_span(results, _):
         panel.set_ylabel("contact force [N]")
         for x in sorted({x for pair in ends for x in pair}):
             panel.axvline(x, color=GREY, linewidth=0.5, linestyle=(0, (1, 2)), zorder=0)
-    grid[-1, 0].set_xlabel(f"position [m]; lines: {what}")
+    grid[-1, 0].set_xlabel(f"position [m]; lines: {what}; force {parts[0][0].filter_text}")
     handles, labels = grid[0, 0].get_legend_handles_labels()
     legend_below(grid[-1, 0], 1.8, handles, labels)
     return figure, None

@@ -185,8 +185,9 @@ class Results:
         """What the links hang at, and x [m] of each, of all wires or of the tension length of one; without sliding contacts
         and stops."""
         is_line = self.entries.get("Generator") == "catenary"
-        part = re.search(r" (\d+)$", wire or "") if is_line else None
-        kinds = tuple(f"{kind} {part[1]} " if part else kind for kind in ("dropper", "stitch clamp"))
+        part = self.tension_lengths(wire)
+        part = f" {part[0]} " if is_line and len(part) == 1 and part[0] else ""
+        kinds = tuple(kind + part for kind in ("dropper", "twin dropper", "stitch clamp"))
         moving = set(self.sliding())
         places = sorted({x for name, x in self.places().items() if name not in moving and "bump stop" not in name and
                          (not is_line or name.startswith(kinds))})
@@ -198,15 +199,37 @@ class Results:
             return name.startswith("dropper")
         return any(self.entries.get(f"Network/Link {one}/Type") == "dropper" for one in (name, name.rpartition(" ")[0]))
 
+    def tension_lengths(self, wire=None):
+        """Names of the tension lengths of a line, or of that with the wire; '' is the name of the only one."""
+        names = [name.strip() for name in self.entries.get("Catenary/Tension lengths", "").split(",")]
+        return [name for name in names if not (name and wire) or
+                re.match(rf"(twin )?(contact|messenger|stitch) {re.escape(name)}( |$)", wire)]
+
     def masts(self, wire=None):
-        """x [m] of the masts of a line; of tension lengths from tables the inner ones, where uplifts are recorded."""
-        if not self.entries.get("Catenary/Tension lengths"):
-            n, length = (numbers(self.entries.get(f"Catenary/{name}", "")) for name in ("Number of spans", "Span length"))
-            return (np.arange(n[0] + 1) * length[0]).tolist() if n and length else []
-        table = self.table("probes.csv")
-        names = list(table.columns) if table and not self.entries.get("Catenary/Uplift positions") else []
-        found = [re.fullmatch(r"(.*) at (\S+) m \[m\]", name) for name in names]
-        return sorted({x for match in found if match and wire in (None, match[1]) for x in numbers(match[2])})
+        """x [m] of the masts and ends of a line, or of the tension length with the wire."""
+        places = set()
+        for name in self.tension_lengths(wire):
+            section = f"Catenary/Tension length {name}/" if name else "Catenary/"
+            table = self.entries.get(f"{section}Line")
+            begin, n, length = (numbers(self.entries.get(section + entry, default)) for entry, default in
+                                (("Begin", "0"), ("Number of spans", "10"), ("Span length", "60")))
+            spans = self.spans_of(table) if table else numbers(self.entries.get(f"{section}Span lengths", "")) or int(n[0]) * length
+            places |= set(np.cumsum([begin[0], *spans]).tolist() if spans else [])
+        return sorted(places)
+
+    def spans_of(self, table):
+        """Lengths [m] in a table of a line, of which the results have a copy; none if it is not there."""
+        inside = not os.path.isabs(table) and ".." not in table.split("/")
+        path = self.path(table if inside else os.path.basename(table))
+        try:
+            with open(path, encoding="utf-8-sig") as file:
+                lines = [line.strip() for line in file if line.strip() and not line.strip().startswith("#")]
+            semicolons = ";" in lines[0]
+            heads, *rows = csv.reader(lines, delimiter=";" if semicolons else ",", skipinitialspace=True)
+            cells = [row[[head.strip() for head in heads].index("span")].strip() for row in rows]
+            return [float(cell.replace(",", ".") if semicolons else cell) for cell in cells if cell]
+        except (OSError, IndexError, ValueError):
+            return []
 
     def supports(self, wire=None):
         """What holds the wires, and x [m] of each: masts of a line, otherwise supports of the wire, or of all wires,

@@ -200,7 +200,7 @@ def motion_panel(panel, results, motion, factor, handles):
 def draw_contacts(panel, results, wire, handles):
     """The ways of the contacts on a wire, and where one of these has no force although its strip touches no other wire."""
     table = results.table("sliding.csv")
-    lost = {contact: strip.force == 0 for strip in (read_strips(results) if table else ()) for contact in strip.contacts}
+    lost = {contact: strip.rows[2] == 0 for strip in (read_strips(results) if table else ()) for contact in strip.contacts}
     mine = [item for item in (table.series(" force [N]", " position [m]") if table else ())
             if wire_of(results, item[0]) in (wire, None)]
     title = ""

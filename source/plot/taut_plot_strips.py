@@ -5,19 +5,36 @@ import numpy as np
 from taut_plot_files import UserError, low_pass, numbers, statistic
 
 
+MOST_SAMPLES = 400_000  # of a record at equal steps
+
+
+def equal_steps(time):
+    """Times a shortest step apart, from the first on; the times themselves where steps are equal, as taut takes them."""
+    steps = np.diff(time)
+    if len(steps) == 0 or steps.max() <= 1.001 * steps.min():
+        return time
+    whole = time[-1] - time[0]
+    step = max(steps.min(), whole / MOST_SAMPLES)
+    return time[0] + step * np.arange(int(whole / step * (1 + 1e-12)) + 1)
+
+
 class Strip:
-    """A contact strip over time: `force` [N], the sum over the wires it touches; `x` [m]; `shares`, {wire: force} of a strip
-    on several wires; `evaluated`, the force that statistics are of: low-passed at `frequency` [Hz] if that is not 0."""
+    """A contact strip. At equal steps, linear between the rows of the table, are `time` [s], `force` [N], the sum over the
+    wires it touches, `position` and `x` [m], `shares`, {wire: force} of a strip on several wires, and `evaluated`, the force
+    that statistics are of: low-passed at `frequency` [Hz] if that is not 0. `rows` has time, x and force as recorded."""
 
     def __init__(self, results, name, contacts, table):
         columns = table.columns
-        self.name, self.contacts, self.time = name, contacts, table.time
+        self.name, self.contacts, self.time = name, contacts, equal_steps(table.time)
         forces = [columns[f"{contact} force [N]"] for contact in contacts]
-        self.force = forces[0] if len(forces) == 1 else np.sum(forces, axis=0)
+        total = forces[0] if len(forces) == 1 else np.sum(forces, axis=0)
+        position = columns[f"{contacts[0]} position [m]"]
+        self.rows = table.time, place_of(results, contacts[0], position), total
+        self.force, self.position, self.x, *forces = (
+            values if self.time is table.time else np.interp(self.time, table.time, values)
+            for values in (total, position, self.rows[1], *forces))
         self.shares = {wire_of(results, contact): force for contact, force in zip(contacts, forces)} \
             if len(contacts) > 1 else {}
-        self.position = columns[f"{contacts[0]} position [m]"]
-        self.x = place_of(results, contacts[0], self.position)
         self.moves = np.ptp(self.position) > 0
         self.step = (self.time[-1] - self.time[0]) / max(1, len(self.time) - 1)
         self.frequency = filter_frequency(results, contacts[0])
@@ -28,19 +45,11 @@ class Strip:
             numbers(results.entries.get("Statistics/Window", ""))
 
     def low_passed(self, force):
-        return low_pass(self.evenly(force), self.step, self.frequency) if self.frequency else force
-
-    def evenly(self, values):
-        """The values at equal steps between begin and end: themselves where the steps are equal."""
-        steps = np.diff(self.time)
-        if len(steps) == 0 or np.ptp(steps) <= 1e-6 * self.step:
-            return values
-        return np.interp(np.linspace(self.time[0], self.time[-1], len(values)), self.time, values)
+        return low_pass(force, self.step, self.frequency) if self.frequency else force
 
     @property
-    def at(self):
-        """What it is drawn over: x, or time where it stands."""
-        return self.x if self.moves else self.time
+    def filter_text(self):
+        return f"low-passed at {self.frequency:g} Hz" if self.frequency else "not filtered"
 
     def inside(self, window):
         """Flags of the samples that are evaluated, at positions on the (first) wire between the ends of the window."""
@@ -120,21 +129,26 @@ def bands(frequency, wanted=None):
 
 
 def power_spectrum(values, step):
-    """Frequencies [Hz] and one-sided power spectral density of evenly spaced values without their mean, through the window of
-    Hann; its integral is the variance."""
+    """Frequencies [Hz] and one-sided power spectral density of evenly spaced values by Welch's method, as taut has it in its
+    statistics; its sum times the interval of the frequencies is the variance."""
     values = np.asarray(values, float) - np.mean(values)
-    window = np.hanning(len(values) + 1)[:-1]
-    power = np.abs(np.fft.rfft(values * window)) ** 2 * step / (window ** 2).sum()
-    power[1:] *= 2
-    if len(values) % 2 == 0:
-        power[-1] /= 2
-    return np.fft.rfftfreq(len(values), step), power
+    n = 1 << (len(values).bit_length() - 1)
+    last = -(-2 * (len(values) - n) // n)  # number of the last segment
+    window = np.hanning(n + 1)[:-1]
+    power = sum(np.abs(np.fft.rfft(window * values[first:first + n])) ** 2
+                for first in ((len(values) - n) * i // max(1, last) for i in range(last + 1)))
+    power[1:-1] *= 2
+    frequencies = np.fft.rfftfreq(n, step)
+    total = power.sum() * frequencies[1]
+    return frequencies, power * (values.var() / total if total > 0 else 0.0)
 
 
 def deviation_in(frequencies, power, low, high):
-    """Standard deviation of what lies between two frequencies."""
-    inside = (frequencies >= low) & (frequencies < high)
-    return float(np.sqrt(power[inside].sum() * (frequencies[1] - frequencies[0])))
+    """Standard deviation of what lies between two frequencies; a value of the spectrum is for the frequencies nearest to it."""
+    half = frequencies[1] / 2
+    begin, end = np.maximum(frequencies - half, 0), np.minimum(frequencies + half, frequencies[-1])
+    inside = np.clip(np.minimum(end, high) - np.maximum(begin, low), 0, None)
+    return float(np.sqrt((power * inside / (end - begin)).sum() * frequencies[1]))
 
 
 def sections(places, strip):
