@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/output/contact_figures.h>
-#include <taut/output/low_pass.h>
+#include <taut/output/power_spectrum.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,8 @@ namespace taut
 {
   namespace
   {
-    /// Samples in a period that the filter needs.
+    /// Samples in a period of the upper frequency of a band.
     constexpr double least_samples = 4.;
-
-    /// The part of a record between two frequencies.
-    std::vector<double> band_pass(const std::vector<double> &record, const double step,
-                                  const double from, const double to)
-    {
-      std::vector<double> result = low_pass(record, step, to);
-      if (!(from > 0.))
-        return result;
-      const std::vector<double> slow = low_pass(result, step, from);
-      for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] -= slow[i];
-      return result;
-    }
   } // namespace
 
   std::vector<std::size_t> lengths_of_losses(const std::vector<double> &force)
@@ -64,14 +51,12 @@ namespace taut
     if (force.size() < 2)
       return result;
     const double step = (times.back() - times.front()) / (contact.force.size() - 1);
+    const PowerSpectrum spectrum = power_spectrum(force, step);
     for (Band &band : result.bands)
     {
-      band.is_resolved = least_samples * band.to * step < 1.;
+      band.is_resolved = !spectrum.density.empty() && least_samples * band.to * step < 1.;
       if (band.is_resolved)
-        band.deviation =
-            Moments::of(
-                contact.in_window(band_pass(contact.force, step, band.from, band.to), parameters))
-                .deviation;
+        band.deviation = spectrum.deviation(band.from, band.to);
     }
     constexpr double rounding = 1e-9;
     for (const std::size_t length : lengths_of_losses(force))

@@ -2,9 +2,12 @@
 #include <taut/base/text.h>
 #include <taut/output/linear_forms.h>
 #include <taut/output/rest_limits.h>
+#include <taut/output/spans.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <set>
 
 namespace taut
 {
@@ -107,6 +110,43 @@ namespace taut
                                sag.position, " m, more than a tenth of their distance of ",
                                sag.limit / largest_sag,
                                " m: the equations take its length for the distance", remedy));
+    return result;
+  }
+
+  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene, const Constraints &rows,
+                                                      const State &state)
+  {
+    std::vector<std::string> result;
+    std::set<std::size_t> said; // rows
+    for (std::size_t w = 0; w < scene.wires.size(); ++w)
+    {
+      std::vector<std::size_t> droppers;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].is_link() && rows[i].link < scene.links.size())
+          if (const Link &link = scene.links[rows[i].link]; is_dropper_between_wires(link))
+            if (link.from.index == w || link.to.index == w)
+              droppers.push_back(i);
+      if (droppers.empty() || said.count(droppers[0]) > 0 ||
+          std::any_of(droppers.begin(), droppers.end(),
+                      [&](const std::size_t i) { return state.multiplier[i] != 0.; }))
+        continue;
+      said.insert(droppers.begin(), droppers.end());
+      const std::size_t nearest =
+          *std::min_element(droppers.begin(), droppers.end(),
+                            [&](const std::size_t a, const std::size_t b)
+                            { return state.geometric_gap[a] < state.geometric_gap[b]; });
+      const Link &link = scene.links[rows[nearest].link];
+      const bool is_one = droppers.size() == 1;
+      result.push_back(to_text(
+          std::setprecision(4),
+          is_one ? "the only dropper" : to_text("all ", droppers.size(), " droppers"), " of wire '",
+          scene.wires[w].name, is_one ? "' is" : "' are", " slack at the start, '", link.name,
+          is_one ? "'" : "' by the least", ", ", state.geometric_gap[nearest], " m",
+          link.unstressed_length > 0. ? to_text(" at its length of ", link.unstressed_length, " m")
+                                      : "",
+          ": no force goes from wire to wire. Check their lengths [m], the heights of the wires "
+          "[m] and their tensions [N]"));
+    }
     return result;
   }
 } // namespace taut

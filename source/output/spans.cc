@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/observer.h>
 #include <taut/output/spans.h>
 
 #include <algorithm>
@@ -8,16 +7,16 @@
 
 namespace taut
 {
+  bool is_dropper_between_wires(const Link &link)
+  {
+    return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
+           link.to.kind == Attachment::Kind::wire;
+  }
+
   namespace
   {
     constexpr double rounding = 1e-6;    ///< of places of masts [m]
     constexpr unsigned int n_places = 4; ///< in an element
-
-    bool holds_wire(const Link &link)
-    {
-      return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
-             link.to.kind == Attachment::Kind::wire;
-    }
 
     /// Places of the transverse supports of a wire, on it [m].
     std::vector<double> supports_of(const Scene &scene, const std::size_t wire)
@@ -33,7 +32,7 @@ namespace taut
     {
       std::set<std::size_t> above;
       for (const Link &link : scene.links)
-        if (holds_wire(link) && link.to.index == wire)
+        if (is_dropper_between_wires(link) && link.to.index == wire)
           above.insert(link.from.index);
       std::vector<double> places;
       if (above.empty())
@@ -65,7 +64,7 @@ namespace taut
     std::set<std::size_t> wires;
     for (const Link &link : scene.links)
     {
-      if (holds_wire(link))
+      if (is_dropper_between_wires(link))
         wires.insert({link.from.index, link.to.index});
       else if (link.moving() && link.to.kind == Attachment::Kind::wire)
         wires.insert(link.to.index);
@@ -79,7 +78,7 @@ namespace taut
       {
         found.spans.push_back({masts[i - 1], masts[i]});
         for (const Link &link : scene.links)
-          if (holds_wire(link) && link.to.index == wire &&
+          if (is_dropper_between_wires(link) && link.to.index == wire &&
               is_in(found.spans.back(), link.to.position))
             found.spans.back().droppers.push_back(link.name);
       }
@@ -89,12 +88,13 @@ namespace taut
     return result;
   }
 
-  void find_sags(const StepView &step, std::vector<SpannedWire> &wires)
+  void find_sags(const Scene &scene, const SceneBodies &bodies, const BodyVectors &U,
+                 std::vector<SpannedWire> &wires)
   {
     for (SpannedWire &spanned : wires)
     {
-      const double up = step.scene.wires[spanned.wire].normal().y < 0. ? -1. : 1.;
-      const std::vector<double> nodes = grid(step.scene, spanned.wire);
+      const double up = scene.wires[spanned.wire].normal().y < 0. ? -1. : 1.;
+      const std::vector<double> nodes = grid(scene, spanned.wire);
       for (Span &span : spanned.spans)
       {
         std::vector<double> places = {span.from, span.to};
@@ -107,11 +107,10 @@ namespace taut
         for (const double s : places)
         {
           std::vector<Term> terms;
-          step.structure.motion(spanned.wire, s, WireMotion::transverse, terms);
-          heights.push_back(
-              up * (evaluate(terms, step.reference.displacement) + evaluate(terms, step.state.U)));
+          bodies.motion(spanned.wire, s, WireMotion::transverse, terms);
+          heights.push_back(up * evaluate(terms, U));
         }
-        step.structure.communicator().sum(heights);
+        bodies.communicator().sum(heights);
         span.sag = 0.;
         for (std::size_t i = 2; i < places.size(); ++i)
         {

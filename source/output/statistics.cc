@@ -38,6 +38,11 @@ namespace taut
       probes.push_back({probe.name, probe.unit(), probe.quantity == Probe::Quantity::displacement});
   }
 
+  void Statistics::find_sags(const Scene &scene, const SceneBodies &bodies, const BodyVectors &rest)
+  {
+    taut::find_sags(scene, bodies, rest, spanned);
+  }
+
   void Statistics::record_links(const StepView &step, const double dt)
   {
     std::size_t n = 0;
@@ -107,8 +112,6 @@ namespace taut
     times.push_back(state.time);
     measures = &step.measures;
     rows = &step.constraints;
-    if (is_start)
-      find_sags(step, spanned);
     record_contacts(step);
     record_links(step, dt);
     for (std::size_t i = 0; i < probes.size(); ++i)
@@ -197,7 +200,7 @@ namespace taut
   {
     ContactRecord record = sum(contact).at_equal_steps(times);
     if (quantities(contact).is_filtered)
-      record.force =
+      record.force = record.mean_force =
           low_pass(record.force, (times.back() - times.front()) / (record.force.size() - 1),
                    parameters.filter_frequency);
     return record;

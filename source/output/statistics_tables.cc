@@ -13,12 +13,12 @@ namespace taut
   {
     std::string histogram_text(const std::vector<double> &force, const double width)
     {
-      std::string text = "from [N],to [N],samples [1],share [1]\n";
+      std::string text = "from [N],to [N],samples [1],share [1],low-passed at [Hz] (0: not)\n";
       const Histogram all = histogram(force, width);
       for (std::size_t i = 0; i < all.number.size(); ++i)
         text += csv_number(all.begin + i * width) + "," + csv_number(all.begin + (i + 1) * width) +
                 "," + csv_number(all.number[i]) + "," +
-                csv_number(static_cast<double>(all.number[i]) / force.size()) + "\n";
+                csv_number(static_cast<double>(all.number[i]) / force.size()) + ",0\n";
       return text;
     }
 

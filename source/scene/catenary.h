@@ -28,6 +28,7 @@ namespace taut
     void declare_names(dealii::ParameterHandler &prm) override;
     void declare_parameters(dealii::ParameterHandler &prm) override;
     void fill(Scene &scene) const override;
+    std::vector<std::string> warnings() const override;
 
   private:
     struct PantographItem

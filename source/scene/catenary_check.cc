@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace taut
@@ -43,6 +44,47 @@ namespace taut
     return items.lateral || has_stagger || items.supports.has_rigid_arms() ||
            !items.contact.wind_load("Contact wire").is_zero() ||
            !items.messenger.wind_load("Messenger wire").is_zero();
+  }
+
+  /// One of each kind for each tension length.
+  std::vector<std::string> Catenary::warnings() const
+  {
+    // Twice and more of what overhead lines have; values in another unit are further off.
+    constexpr double largest_stagger = 2., least_system_height = .1, largest_system_height = 10.;
+    const bool is_rail = kind == "conductor rail";
+    std::vector<std::string> result;
+    const std::vector<LineLayout> parts = layouts();
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+      std::set<std::string> said;
+      const auto say = [&](const std::string &what, const double value, const double x,
+                           const std::string &reason)
+      {
+        if (said.insert(what).second)
+          result.push_back(to_text(section_of(i), ": ", what, " of ", value, " m at x = ",
+                                   parts[i].begin + x, " m ", reason, ". Lengths are read in m"));
+      };
+      const std::vector<LineMast> &masts = parts[i].masts;
+      for (const LineMast &mast : masts)
+      {
+        for (const double z : {mast.contact_z, mast.messenger_z})
+          if (std::fabs(z) > largest_stagger)
+            say("a stagger", z, mast.x, to_text("is above ", largest_stagger, " m"));
+        if (!is_rail &&
+            !(mast.encumbrance >= least_system_height && mast.encumbrance <= largest_system_height))
+          say("a system height (encumbrance)", mast.encumbrance, mast.x,
+              to_text("is not between ", least_system_height, " and ", largest_system_height,
+                      " m"));
+      }
+      for (std::size_t k = 0; k < parts[i].spans.size(); ++k)
+        for (const LineDropper &dropper : parts[i].spans[k])
+          if (const double height = std::max(masts[k].encumbrance, masts[k + 1].encumbrance);
+              !is_rail && dropper.length > height + dropper.pre_sag +
+                                               std::fabs(masts[k + 1].height - masts[k].height))
+            say("a dropper", dropper.length, dropper.x,
+                to_text("is longer than the system height of ", height, " m"));
+    }
+    return result;
   }
 
   void Catenary::check_given() const

@@ -210,8 +210,21 @@ namespace taut
     if (!(result.length() <= longest))
       throw EntryError(entry, "the line would be " + to_text(result.length()) +
                                   " m long; at most 1e9 m are possible");
-    for (LineMast *const end : {&result.masts.front(), &result.masts.back()})
-      end->stitch_length = end->mid_point = 0.;
+    // One value is for the inner masts.
+    const auto clear_ends =
+        [&](double LineMast::*const value, const std::vector<double> &list, const std::string &name)
+    {
+      for (LineMast *const end : {&result.masts.front(), &result.masts.back()})
+      {
+        if (end->*value > 0. && (!table.empty() || list.size() > 1))
+          throw EntryError(section + (table.empty() ? name : "/Line"),
+                           to_text(end->*value, " m at the end of the line at x = ", begin + end->x,
+                                   " m, where there is none; give 0 there"));
+        end->*value = 0.;
+      }
+    };
+    clear_ends(&LineMast::stitch_length, stitch_lengths, "/Stitch lengths");
+    clear_ends(&LineMast::mid_point, mid_points, "/Mid-points");
     return result;
   }
 

@@ -75,7 +75,7 @@ namespace taut
       checkpoints.find(processes);
     describe();
     find_start();
-    find_rest_of_probes();
+    find_rest();
     stop_before_start();
     if (has_time())
       choose_scheme();
@@ -191,6 +191,7 @@ namespace taut
       for (std::size_t i = 0; i < at_start[k].size(); ++i)
         at_start[k][i] += motion->start().state.U[k][i];
     const ScenePlaces places = places_in_space(model, bodies, &at_start);
+    const std::vector<double> heights = heights_at_rest();
     processes.agree(
         [&]
         {
@@ -207,7 +208,7 @@ namespace taut
               comments.push_back("Not used by it: " + entry);
           prepare_folder(parameters, comments);
           if (!model.links.empty())
-            write_start(places);
+            write_start(places, heights);
         });
   }
 

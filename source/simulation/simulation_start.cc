@@ -66,6 +66,8 @@ namespace taut
                      '\n');
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
+    for (const std::string &warning : parameters.scene_warnings())
+      log << "Warning: " << warning << '\n';
     for (const std::string &warning : warnings_of_unheld_wires(model))
       log << "Warning: " << warning << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
@@ -163,6 +165,9 @@ namespace taut
       at_start[k] = displacement(start.reference, start.state, k);
     for (const std::string &warning : warnings_at_rest(model, bodies, at_start))
       log << "Warning: " << warning << '\n';
+    if (model.start == Start::equilibrium)
+      for (const std::string &warning : warnings_of_slack_droppers(model, links, start.state))
+        log << "Warning: " << warning << '\n';
     observed = std::make_unique<ObservedRun>(*motion, model, bodies, parameters.output.folder,
                                              parameters.output.interval);
     observed->stop_if(stop_asked);
@@ -214,32 +219,58 @@ namespace taut
           << (std::count(all.begin(), all.end(), 1) > 1 ? "them" : "it") << '\n';
   }
 
-  void Simulation::find_rest_of_probes()
+  /// The equilibrium without the sliding contacts, which lift what they touch, of a run that starts
+  /// from an equilibrium; otherwise, and where there is none, the start.
+  void Simulation::find_rest()
   {
-    if (model.start != Start::equilibrium || model.probes.empty())
-      return;
-    // In a scene without motion the probes show the equilibrium itself.
-    if (!has_time() && links.sliding_rows().empty())
-      return;
-    const Reference &reference = motion->reference();
-    BodyVectors rest = reference.displacement;
-    if (!links.sliding_rows().empty())
+    const InitialState &start = motion->start();
+    rest = start.reference.displacement;
+    for (std::size_t k = 0; k < rest.size(); ++k)
+      rest[k] = displacement(start.reference, start.state, k);
+    for (std::size_t i = 0; i < links.size(); ++i)
+      forces_at_rest[links[i].name] = start.state.multiplier[i];
+    const bool is_still = model.start == Start::equilibrium,
+               has_sliding = !links.sliding_rows().empty();
+    if (is_still && has_sliding && !(model.probes.empty() && spanned_wires(model).empty()))
     {
       const Scene without = without_sliding_contacts(model);
       Constraints fixed_constraints = scene_constraints(without, bodies);
-      if (motion->start().n_kept > 0)
-        fixed_constraints.keep_directions(reference.displacement, motion->start().state.multiplier);
+      if (start.n_kept > 0)
+        fixed_constraints.keep_directions(start.reference.displacement, start.state.multiplier);
       try
       {
-        rest = static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.).displacement;
+        const StaticState alone =
+            static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.);
+        rest = alone.displacement;
+        for (std::size_t i = 0; i < fixed_constraints.size(); ++i)
+          forces_at_rest[fixed_constraints[i].name] = alone.multiplier[i];
       }
-      catch (const BodyNotHeld &)
+      catch (const UserError &)
       {
-        log << "Probes: no equilibrium without the sliding contacts; displacements count from the "
-               "equilibrium with them\n";
+        log << "No equilibrium without the sliding contacts: displacements of probes count from "
+               "the "
+               "equilibrium with them, and sags and droppers are those of it\n";
       }
     }
-    observed->set_rest_of_probes(rest);
+    figures.find_sags(model, bodies, rest);
+    // In a scene without motion the probes show the equilibrium itself.
+    if (is_still && !model.probes.empty() && (has_time() || has_sliding))
+      observed->set_rest_of_probes(rest);
+  }
+
+  /// Of the `to` ends of links between wires; 0 of others. Called by all ranks together.
+  std::vector<double> Simulation::heights_at_rest() const
+  {
+    std::vector<double> heights;
+    for (const Link &link : model.links)
+    {
+      std::vector<Term> terms;
+      if (is_dropper_between_wires(link))
+        bodies.motion(link.to, false, {0., 1.}, 1., terms);
+      heights.push_back(evaluate(terms, rest));
+    }
+    processes.sum(heights);
+    return heights;
   }
 
   namespace
@@ -262,7 +293,7 @@ namespace taut
   } // namespace
 
   /// All rows of a ball joint have the place of the first one.
-  void Simulation::write_start(const ScenePlaces &places) const
+  void Simulation::write_start(const ScenePlaces &places, const std::vector<double> &heights) const
   {
     const State &start = motion->start().state;
     TableFile file(parameters.output.folder + "/start.csv",
@@ -295,18 +326,14 @@ namespace taut
       file.end_line();
     }
     file.close();
-    write_droppers(places);
+    write_droppers(places, heights);
   }
 
   /// The table for who makes and mounts the droppers between wires.
-  void Simulation::write_droppers(const ScenePlaces &places) const
+  void Simulation::write_droppers(const ScenePlaces &places,
+                                  const std::vector<double> &heights) const
   {
-    const auto is_between_wires = [](const Link &link)
-    {
-      return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
-             link.to.kind == Attachment::Kind::wire;
-    };
-    if (std::none_of(model.links.begin(), model.links.end(), is_between_wires))
+    if (std::none_of(model.links.begin(), model.links.end(), is_dropper_between_wires))
       return;
     std::vector<double> masts;
     for (const Support &support : model.supports)
@@ -319,14 +346,15 @@ namespace taut
                     "height of the lower end [m]", "cut length [m]", "static force [N]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
-      if (!links[i].is_link() || !is_between_wires(model.links[links[i].link]))
+      if (!links[i].is_link() || !is_dropper_between_wires(model.links[links[i].link]))
         continue;
       const Link &link = model.links[links[i].link];
       const Coordinates &at = places.to[links[i].link];
       const auto next = std::upper_bound(masts.begin(), masts.end(), at.x);
       file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
-           << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1)) << at.y
-           << link.unstressed_length << motion->start().state.multiplier[i];
+           << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1))
+           << at.y + heights[links[i].link] << link.unstressed_length
+           << forces_at_rest.at(links[i].name);
       file.end_line();
     }
     file.close();

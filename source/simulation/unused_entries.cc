@@ -15,7 +15,8 @@ namespace taut
 {
   namespace
   {
-    /// Value of another entry of the same section; empty: no such entry.
+    /// Value of another entry of the same section, or with "../" of that above; empty: no such
+    /// entry.
     using ValueOf = std::function<std::string(const std::string &entry)>;
 
     /// Entries of sections whose paths begin alike, and why they have no effect; empty: they have.
@@ -29,6 +30,17 @@ namespace taut
     std::string without_given_start(const ValueOf &, const std::string &start)
     {
       return start == "given" ? "" : "without Start = given";
+    }
+
+    /// Another entry takes the place of these.
+    std::function<std::string(const ValueOf &, const std::string &)>
+    beside(const std::string &entry)
+    {
+      return [entry](const ValueOf &value, const std::string &)
+      {
+        const std::string given = value(entry);
+        return given.empty() ? "" : "beside " + entry.substr(entry.rfind('/') + 1) + " = " + given;
+      };
     }
 
     /// For a contact, unless its Obstacle is one of these.
@@ -56,6 +68,12 @@ namespace taut
             "Initial transverse displacement", "Initial transverse velocity",
             "Initial lateral displacement", "Initial lateral velocity"},
            without_given_start},
+          {"Catenary",
+           {"Number of spans", "Span length", "Span lengths", "Heights", "Stitch lengths",
+            "Mid-points"},
+           beside("Line")},
+          {"Catenary", {"Positions", "Pre-sag", "Lengths", "Stagger"}, beside("../Line")},
+          {"Catenary", {"Number of spans", "Span length"}, beside("Span lengths")},
           {"Contact ", {"Radius", "Encloses body"}, unless_obstacle_is({"cylinder", "sphere"})},
           {"Contact ", {"Height", "Height difference"}, unless_obstacle_is({"height"})},
           {"Contact ", {"Point"}, unless_obstacle_is({"plane", "cylinder", "sphere"})},
@@ -116,7 +134,10 @@ namespace taut
       const std::string section = path.substr(0, slash), entry = path.substr(slash + 1);
       const ValueOf value_of = [&](const std::string &other)
       {
-        const auto found = entry_values.find(section + "/" + other);
+        const bool is_above = other.compare(0, 3, "../") == 0;
+        const auto found =
+            entry_values.find((is_above ? section.substr(0, section.rfind('/')) : section) + "/" +
+                              (is_above ? other.substr(3) : other));
         return found == entry_values.end() ? std::string() : found->second;
       };
       for (const Rule &rule : rules())

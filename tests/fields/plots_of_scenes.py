@@ -8,6 +8,7 @@ from PIL import Image
 from taut_plot_files import read_collection
 from taut_plot_film import magnification, read_frames, read_link_frames, text_of
 from taut_plot_solids import outline
+from taut_plot_strips import deviation_in, power_spectrum, read_strips
 from taut_plot_style import LOSS
 
 
@@ -29,6 +30,21 @@ def check_line():
     highest, = named(figure.axes[1], "highest")
     close("envelope", highest.get_ydata(), 1e3 * (motion - motion[0]).max(axis=0)[::2], 1e-4)
     close("profile", figure.axes[0].get_lines()[0].get_ydata(), 1e3 * motion[0][::2], 1e-4)
+
+    # Pictures and statistics.json have one definition of filter, window, bands and masts.
+    results = plot.Results(str(path))
+    strips = {strip.name: strip for strip in read_strips(results)}
+    for name, of in results.statistics["sliding_contacts"].items():
+        strip = strips[name]
+        close(f"filter of {name}", [strip.frequency], [20])
+        said = [of["filtered"][key]["value"] for key in ("mean", "standard_deviation", "maximum", "minimum")]
+        close(f"figures of {name}", [pick(strip.evaluated) for pick in (np.mean, np.std, np.max, np.min)], said, 1e-4)
+        spectrum = power_spectrum(strip.force, strip.step)
+        close(f"bands of {name}", [deviation_in(*spectrum, band["from"], band["to"]) for band in of["bands"]],
+              [band["standard_deviation"]["value"] for band in of["bands"]], 1e-4)
+    for wire, spans in results.statistics["spans"].items():
+        begin = 496 if wire.endswith("2") else 0
+        close(f"masts of {wire}", results.masts(wire), [begin, *(begin + span["to"]["value"] for span in spans)])
 
     force = np.where(TIME < 1, 100.0, 0.0)
     panel = draw("contact_force", folder("loss", sliding=contact_table(pan=force))).axes[0]

@@ -3,6 +3,7 @@
 // formulas of strings.
 #include "scene_tests.h"
 
+#include <taut/output/low_pass.h>
 #include <taut/output/spans.h>
 #include <taut/study/measured_run.h>
 #include <taut/study/sweep.h>
@@ -179,6 +180,127 @@ TEST(LineFigures, sags_of_spans_are_those_of_strings)
   const double moment = .8 * g * 40. * 40. / 8. + 250. * g;
   EXPECT_NEAR(value(messenger[1].at("sag")), 1e3 * moment / 12000., 1e-6);
   EXPECT_NEAR(value(contact[1].at("sag")), 0., 1e-6);
+}
+
+namespace
+{
+  /// Unequal spans at unequal heights with given pre-sags, under whose second span a pantograph
+  /// without a spring below it stands.
+  const Overrides uneven = {
+      "Catenary/Span lengths=40, 50, 45",
+      "Catenary/Heights=5, 5, 5.2, 5.2",
+      "Catenary/Begin=-20",
+      "Catenary/Droppers/Positions=10, 20, 30; 10, 20, 30, 40; 15, 30",
+      "Catenary/Droppers/Pre-sag=0.01, 0.02, 0.01; 0.02, 0.03, 0.03, 0.02; 0.01, 0.01",
+      "Time/End=2e-3",
+      "Statistics/Window="};
+  const std::string under = line + "Pantograph pantograph: Start = 42\n",
+                    alone = line + "Pantograph pantograph: -\nCatenary: Pantographs =\n";
+
+  /// Places on that contact wire and heights of the lower ends of its droppers, and of its ends.
+  /// The line rises over one span alone, where its cubic has no slope at both ends.
+  std::vector<std::pair<double, double>> held_places()
+  {
+    std::vector<std::pair<double, double>> held = {{0., 5.}};
+    const double x[] = {10., 20., 30., 50., 60., 70., 80., 105., 120.},
+                 pre_sag[] = {.01, .02, .01, .02, .03, .03, .02, .01, .01};
+    for (int i = 0; i < 9; ++i)
+    {
+      const double t = std::clamp((x[i] - 40.) / 50., 0., 1.);
+      held.emplace_back(x[i], 5. + .2 * t * t * (3. - 2. * t) - pre_sag[i]);
+    }
+    held.emplace_back(135., 5.2);
+    return held;
+  }
+
+  constexpr double contact_tension = 10000., contact_weight = 9.81;
+} // namespace
+
+// Expected of droppers: the heights that their lengths are for, and the force that a string of
+// parabolas through these heights leaves to them; of start.csv that the pantograph carries some of
+// it.
+TEST(LineFigures, droppers_have_heights_and_forces_of_the_line_alone)
+{
+  Session session(under, uneven);
+  session.run();
+  const auto table = read_table(session.folder() + "/droppers.csv"),
+             start = read_table(session.folder() + "/start.csv");
+  const std::vector<std::pair<double, double>> held = held_places();
+  ASSERT_EQ(table.at("x [m]").size(), held.size() - 2);
+  double most_lifted = 0.;
+  for (std::size_t i = 1; i + 1 < held.size(); ++i)
+  {
+    const auto &[x, y] = held[i];
+    const double left = x - held[i - 1].first, right = held[i + 1].first - x,
+                 force = contact_weight * (left + right) / 2. +
+                         contact_tension *
+                             ((y - held[i - 1].second) / left + (y - held[i + 1].second) / right);
+    EXPECT_NEAR(table.at("x [m]")[i - 1], x - 20., 1e-9);
+    EXPECT_NEAR(table.at("height of the lower end [m]")[i - 1], y, 1e-9) << x;
+    EXPECT_NEAR(table.at("static force [N]")[i - 1], force, 1e-6) << x;
+    most_lifted = std::max(most_lifted, force - start.at("force [N or N m]")[i - 1]);
+  }
+  EXPECT_GT(most_lifted, 10.);
+}
+
+// Expected: depths of the string of parabolas below the chords of its own heights at the masts.
+TEST(LineFigures, sags_are_those_of_the_line_alone)
+{
+  const std::vector<std::pair<double, double>> held = held_places();
+  const auto height = [&](const double x)
+  {
+    std::size_t i = 1;
+    while (held[i].first < x)
+      ++i;
+    const double left = x - held[i - 1].first, right = held[i].first - x;
+    return (held[i - 1].second * right + held[i].second * left) / (left + right) -
+           contact_weight / (2. * contact_tension) * left * right;
+  };
+  const double masts[] = {0., 40., 90., 135.};
+  for (const std::string &scene : {under, alone})
+  {
+    const Said said = say(scene, uneven);
+    const nlohmann::json &spans = said.json.at("spans").at("contact");
+    ASSERT_EQ(spans.size(), 3u);
+    for (int i = 0; i < 3; ++i)
+    {
+      const double from = masts[i], to = masts[i + 1];
+      double sag = 0.;
+      for (double x = from; x <= to; x += .25)
+        sag = std::max(sag, (height(from) * (to - x) + height(to) * (x - from)) / (to - from) -
+                                height(x));
+      EXPECT_NEAR(value(spans[i].at("sag")), 1e3 * sag, 1e-6) << i;
+      EXPECT_GT(sag, 5e-3) << i;
+    }
+  }
+}
+
+// Expected: the low-passed force at the places of its own times, span by span.
+TEST(LineFigures, figures_of_spans_are_those_of_the_filtered_force)
+{
+  const Said said = say(line + "Catenary: Span lengths = 36, 44; Begin = 3\n",
+                        {"Statistics/Window=", "Output/Interval=0"});
+  const nlohmann::json &spans = said.json.at("spans").at("contact");
+  const std::vector<double> &place = said.sliding.at("pantograph position [m]"),
+                            &raw = said.sliding.at("pantograph force [N]");
+  const std::vector<double> force = taut::low_pass(raw, 2e-3, 20.);
+  const double masts[] = {0., 36., 80.};
+  ASSERT_EQ(spans.size(), 2u);
+  for (int i = 0; i < 2; ++i)
+  {
+    double least = 1e9, largest = -1e9, largest_raw = 0.;
+    for (std::size_t k = 0; k < force.size(); ++k)
+      if (place[k] > masts[i] - 1e-9 && place[k] < masts[i + 1] - 1e-9)
+      {
+        least = std::min(least, force[k]);
+        largest = std::max(largest, force[k]);
+        largest_raw = std::max(largest_raw, raw[k]);
+      }
+    const nlohmann::json &f = spans[i].at("contact_forces").at("pantograph");
+    EXPECT_NEAR(value(f.at("maximum")), largest, 1e-6);
+    EXPECT_NEAR(value(f.at("minimum")), least, 1e-6);
+    EXPECT_GT(largest_raw, largest + 5.);
+  }
 }
 
 // Two pantographs, of which the first one is in the window.

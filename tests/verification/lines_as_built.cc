@@ -4,6 +4,7 @@
 // strings; an arm that is a stiff beam on a hinge.
 #include "scene_tests.h"
 
+#include <taut/base/text.h>
 #include <taut/output/line_constants.h>
 #include <taut/study/elasticity.h>
 
@@ -131,6 +132,99 @@ TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
   EXPECT_TRUE(has(error("span,droppers\n"), "has no rows"));
   EXPECT_TRUE(
       has(error_of([] { Session(strings, {"Catenary/Line=none.csv"}); }), "cannot read the file"));
+}
+
+namespace
+{
+  std::string checked(const std::string &scene, const Overrides &overrides = {})
+  {
+    Session session(scene, overrides);
+    session.simulation().check();
+    return session.log();
+  }
+} // namespace
+
+// Source: lines have system heights of 0.5 to 3 m and staggers of up to 0.6 m. Each value is in
+// another unit, or has a digit too many.
+TEST(LinesAsBuilt, values_of_another_unit_have_warnings_as_they_were_read)
+{
+  const std::string unit = "Lengths are read in m",
+                    droppers = "Catenary/Droppers: Positions = 10, 20, 30; Lengths = ";
+  EXPECT_FALSE(has(checked(strings), unit));
+  EXPECT_FALSE(has(checked(strings + "Catenary: Encumbrance = 0.1, 10\n"
+                                     "Catenary/Contact wire: Stagger = 2\n"),
+                   unit));
+  EXPECT_TRUE(has(checked(strings + "Catenary: Encumbrance = 1.4, 1400; Begin = 100\n"),
+                  "Warning: Catenary: a system height (encumbrance) of 1400 m at x = 140 m is not "
+                  "between 0.1 and 10 m. Lengths are read in m"));
+  EXPECT_TRUE(has(checked(strings + "Catenary: Encumbrance = 0.012\n"),
+                  "a system height (encumbrance) of 0.012 m at x = 0 m"));
+  EXPECT_TRUE(has(checked(strings + "Catenary/Contact wire: Stagger = -30\n"),
+                  "a stagger of -30 m at x = 0 m is above 2 m"));
+  EXPECT_TRUE(has(checked(strings + "Catenary/Messenger wire: Stagger = 0.2, 2.1\n"),
+                  "a stagger of 2.1 m at x = 40 m is above 2 m"));
+  EXPECT_TRUE(has(checked(strings + droppers + "0.9, 0.8, 900\n"),
+                  "a dropper of 900 m at x = 30 m is longer than the system height of 1.2 m"));
+  const File table("line.csv",
+                   "span,droppers,lengths,encumbrance\n40,10 20,0.9 1.31,1.1\n,,,1.3\n");
+  const std::string log = checked(strings, {"Catenary/Line=" + table.path});
+  EXPECT_TRUE(has(log, "a dropper of 1.31 m at x = 20 m is longer than the system height of 1.3 m"))
+      << log;
+}
+
+// Expected of two strings at rest: how far apart they are, less the length.
+TEST(LinesAsBuilt, wires_whose_droppers_are_all_slack_have_a_warning)
+{
+  const std::string tight = strings + "Catenary/Contact wire: Tension = 30000\n",
+                    droppers = "Catenary/Droppers: Positions = 10, 20, 30; Lengths = ";
+  const double gap = 1.18 - (1.2 - sag(20., 40., .8 * g, 12000.) + sag(20., 40., g, 30000.));
+  const std::string log = checked(tight + droppers + "1.2, 1.18, 1.2\n");
+  EXPECT_TRUE(has(log, taut::to_text("Warning: all 3 droppers of wire 'messenger' are slack at the "
+                                     "start, 'dropper 1.2' by the least, ",
+                                     std::setprecision(4), gap, " m at its length of 1.18 m")))
+      << log;
+  EXPECT_FALSE(has(log, "droppers of wire 'contact'"));
+  EXPECT_FALSE(has(checked(tight + droppers + "1.2, 0.9, 1.2\n"), "are slack at the start"));
+  // Of two contact wires one hangs on its dropper no more.
+  const std::string both =
+      checked(strings + "Catenary: Contact wires = 2; Twin droppers = in turn\n" + droppers +
+              "0.9, 1.3, 0.9\n");
+  EXPECT_TRUE(has(both, "the only dropper of wire 'twin contact' is slack")) << both;
+}
+
+TEST(LinesAsBuilt, entries_beside_a_table_are_said_not_to_be_used)
+{
+  const File table("line.csv", "span,droppers\n40,10 20\n50,20\n,\n");
+  const std::string log = checked(
+      strings + "Catenary/Droppers: Positions = 7, 8\nCatenary/Contact wire: Stagger = 0.2\n",
+      {"Catenary/Line=" + table.path});
+  const std::string beside = " (beside Line = " + table.path + ")";
+  for (const std::string entry :
+       {"Catenary/Span length = 40", "Catenary/Number of spans = 1",
+        "Catenary/Droppers/Positions = 7, 8", "Catenary/Contact wire/Stagger = 0.2"})
+    EXPECT_TRUE(has(log, "  not used: " + entry + beside)) << entry << '\n' << log;
+  EXPECT_TRUE(has(checked(strings, {"Catenary/Span lengths=40, 50"}),
+                  "not used: Catenary/Span length = 40 (beside Span lengths = 40, 50)"));
+  EXPECT_FALSE(has(checked(strings), "not used: "));
+}
+
+// One value is for the inner masts; where each mast has its own, ends have none.
+TEST(LinesAsBuilt, stitch_wires_and_mid_points_at_ends_are_refused)
+{
+  const auto error = [](const Overrides &overrides)
+  { return error_of([&] { Session(strings, overrides); }); };
+  const std::string spans = "Catenary/Span lengths=40, 50";
+  EXPECT_TRUE(has(error({spans, "Catenary/Stitch lengths=12, 16, 0"}),
+                  "12 m at the end of the line at x = 0 m, where there is none; give 0 there"));
+  EXPECT_TRUE(has(error({spans, "Catenary/Mid-points=0, 0, 9", "Catenary/Begin=10"}),
+                  "9 m at the end of the line at x = 100 m"));
+  for (const std::string column : {"stitch length", "mid-point"})
+  {
+    const File table("line.csv", "span,droppers," + column + "\n40,10 20,\n50,20,0\n,,14\n");
+    EXPECT_TRUE(
+        has(error({"Catenary/Line=" + table.path}), "14 m at the end of the line at x = 90 m"))
+        << column;
+  }
 }
 
 TEST(LinesAsBuilt, droppers_hold_the_contact_wire_at_the_heights_of_the_masts)

@@ -13,11 +13,10 @@ namespace taut
   /// have them.
   struct ContactFigures
   {
-    /// Standard deviation of the force between two frequencies: of the force that low_pass() leaves
-    /// at the upper one, less what it leaves of this at the lower one.
+    /// Standard deviation of the unfiltered force between two frequencies, by its power_spectrum().
     struct Band
     {
-      double from, to;          ///< [Hz]; from 0: low-passed only
+      double from, to;          ///< [Hz]
       double deviation = 0.;    ///< [N]
       bool is_resolved = false; ///< by steps shorter than a quarter of a period
     };

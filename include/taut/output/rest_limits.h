@@ -2,7 +2,9 @@
 #ifndef taut_rest_limits_h
 #define taut_rest_limits_h
 
+#include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
+#include <taut/time/state.h>
 
 #include <string>
 #include <vector>
@@ -18,6 +20,11 @@ namespace taut
    */
   std::vector<std::string> warnings_at_rest(const Scene &scene, const SceneBodies &structure,
                                             const BodyVectors &start);
+
+  /// A warning for each wire whose droppers from another wire are all slack in @p state; wires with
+  /// the same droppers have one.
+  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene, const Constraints &rows,
+                                                      const State &state);
 } // namespace taut
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef taut_spans_h
 #define taut_spans_h
 
+#include <taut/model/scene_bodies.h>
 #include <taut/output/contact_quantities.h>
 #include <taut/scene/scene.h>
 
@@ -11,13 +12,14 @@
 
 namespace taut
 {
-  struct StepView;
+  /// Whether a link is a dropper from wire to wire.
+  bool is_dropper_between_wires(const Link &link);
 
   /// A part of a wire between two masts.
   struct Span
   {
     double from = 0., to = 0.;              ///< s on the wire [m]
-    double sag = 0.;                        ///< at t = 0 [m], see find_sags()
+    double sag = 0.;                        ///< at rest [m], see find_sags()
     std::vector<std::string> droppers = {}; ///< that hold this part of the wire, from `from` on
   };
 
@@ -38,8 +40,10 @@ namespace taut
   std::vector<SpannedWire> spanned_wires(const Scene &scene);
 
   /// Sets the sags: the largest depth of the wire below the chord between its points at the two
-  /// masts, at four places of each element, or 0 above it. Called by all ranks together.
-  void find_sags(const StepView &step, std::vector<SpannedWire> &wires);
+  /// masts, at four places of each element, or 0 above it, at the displacements @p U. Called by all
+  /// ranks together.
+  void find_sags(const Scene &scene, const SceneBodies &bodies, const BodyVectors &U,
+                 std::vector<SpannedWire> &wires);
 
   /// Moments of the samples of a contact force in a span and in the window; a sample at a
   /// mast belongs to the span after it. Without samples all are 0.

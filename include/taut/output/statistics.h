@@ -40,6 +40,10 @@ namespace taut
     /// Throws the errors of contact_sums().
     Statistics(const StatisticsParameters &parameters, const Scene &scene, const Constraints &rows);
 
+    /// Measures the sags of the spans at the displacements @p rest of the line alone; without it
+    /// they are 0. Called by all ranks together.
+    void find_sags(const Scene &scene, const SceneBodies &bodies, const BodyVectors &rest);
+
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;

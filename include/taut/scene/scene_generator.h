@@ -32,6 +32,9 @@ namespace taut
     /// Adds wires, links and other items of the entries to a scene, which already has gravity,
     /// start and the bodies of the parameter file. Throws UserError.
     virtual void fill(Scene &scene) const = 0;
+
+    /// Values that are possible, but probably of another unit: each in one line, for the log.
+    virtual std::vector<std::string> warnings() const { return {}; }
   };
 } // namespace taut
 

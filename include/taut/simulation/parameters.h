@@ -111,6 +111,9 @@ namespace taut
     /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
 
+    /// Of the generator, see SceneGenerator::warnings().
+    std::vector<std::string> scene_warnings() const { return generator->warnings(); }
+
     /// The scene as the generator fills it, without what other sections add, and not checked.
     Scene generated_scene() const;
 

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -84,12 +85,13 @@ namespace taut
     std::string names_of(const std::vector<char> &some) const;
     void report_linearised() const;
     void report_free_bodies() const;
-    void find_rest_of_probes();
+    void find_rest();
+    std::vector<double> heights_at_rest() const;
     void choose_scheme();
     std::vector<std::string> unused_scheme_entries() const;
     void prepare_results(bool resumes);
-    void write_start(const ScenePlaces &places) const;
-    void write_droppers(const ScenePlaces &places) const;
+    void write_start(const ScenePlaces &places, const std::vector<double> &heights) const;
+    void write_droppers(const ScenePlaces &places, const std::vector<double> &heights) const;
     void add_observers();
     std::unique_ptr<StepAccuracy> step_accuracy();
     int signal() const;
@@ -114,6 +116,8 @@ namespace taut
     // Of a run.
     std::unique_ptr<SteppedMotion> motion;
     std::unique_ptr<ObservedRun> observed;
+    BodyVectors rest;                             ///< see find_rest() [m, rad]
+    std::map<std::string, double> forces_at_rest; ///< of the links [N, N m]
     std::unique_ptr<AccuracyReport> accuracy;
     std::unique_ptr<ModelLimits> limits;
     std::vector<NamedQuantity> measured; ///< by the observers, at the end
