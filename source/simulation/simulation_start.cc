@@ -248,8 +248,7 @@ namespace taut
       catch (const UserError &)
       {
         log << "No equilibrium without the sliding contacts: displacements of probes count from "
-               "the "
-               "equilibrium with them, and sags and droppers are those of it\n";
+               "the equilibrium with them, and sags and droppers are those of it\n";
       }
     }
     figures.find_sags(model, bodies, rest);

@@ -199,6 +199,10 @@ TEST(LinesAsBuilt, entries_beside_a_table_are_said_not_to_be_used)
       strings + "Catenary/Droppers: Positions = 7, 8\nCatenary/Contact wire: Stagger = 0.2\n",
       {"Catenary/Line=" + table.path});
   const std::string beside = " (beside Line = " + table.path + ")";
+  EXPECT_FALSE(has(checked(strings + "Catenary: Point masses = clamp\nCatenary/Point mass clamp: "
+                                     "Positions = 7; Mass = 1\n",
+                           {"Catenary/Line=" + table.path}),
+                   "not used: Catenary/Point mass"));
   for (const std::string entry :
        {"Catenary/Span length = 40", "Catenary/Number of spans = 1",
         "Catenary/Droppers/Positions = 7, 8", "Catenary/Contact wire/Stagger = 0.2"})
