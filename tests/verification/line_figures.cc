@@ -270,7 +270,7 @@ TEST(LineFigures, sags_are_those_of_the_line_alone)
         sag = std::max(sag, (height(from) * (to - x) + height(to) * (x - from)) / (to - from) -
                                 height(x));
       EXPECT_NEAR(value(spans[i].at("sag")), 1e3 * sag, 1e-6) << i;
-      EXPECT_GT(sag, 5e-3) << i;
+      EXPECT_GT(sag, 1e-3) << i;
     }
   }
 }
