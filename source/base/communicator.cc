@@ -13,6 +13,9 @@ namespace taut
 {
   namespace
   {
+    /// Numbers or letters in a message; MPI counts them by an int.
+    constexpr std::size_t largest_message = 1 << 28;
+
     /// An exception in a form that can be sent.
     struct Failure
     {
@@ -74,7 +77,10 @@ namespace taut
       unsigned long length = text.size();
       MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, rank, processes);
       text.resize(length);
-      MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, rank, processes);
+      for (std::size_t begin = 0; begin < text.size(); begin += largest_message)
+        MPI_Bcast(text.data() + begin,
+                  static_cast<int>(std::min(text.size() - begin, largest_message)), MPI_CHAR, rank,
+                  processes);
     }
   } // namespace
 
@@ -108,11 +114,9 @@ namespace taut
   {
     if (n_ranks == 1)
       return;
-    // The length of a message is an int.
-    constexpr std::size_t most = 1 << 28;
-    for (; n > 0; values += std::min(n, most), n -= std::min(n, most))
-      MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(std::min(n, most)), MPI_DOUBLE, MPI_SUM,
-                    processes);
+    for (; n > 0; values += std::min(n, largest_message), n -= std::min(n, largest_message))
+      MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(std::min(n, largest_message)),
+                    MPI_DOUBLE, MPI_SUM, processes);
   }
 
   double Communicator::max(double value) const

@@ -8,6 +8,7 @@
 #include <new>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace taut
@@ -38,6 +39,18 @@ namespace taut
         y[column[k]] += value[k] * x[row[k]];
     }
   }
+
+  namespace
+  {
+    /// Throws what a failure of CHOLMOD is: a lack of memory, or a call that it does not take.
+    [[noreturn]] void fail(const cholmod_common &common, const char *const what)
+    {
+      if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+        throw std::bad_alloc();
+      throw std::runtime_error(std::string("CHOLMOD failed to ") + what + ": status " +
+                               std::to_string(common.status));
+    }
+  } // namespace
 
   struct SparseCholesky::Workspace
   {
@@ -78,7 +91,7 @@ namespace taut
       triplet.dtype = CHOLMOD_DOUBLE;
       cholmod_sparse *result = cholmod_triplet_to_sparse(&triplet, entries.size(), &common);
       if (!result)
-        throw std::bad_alloc();
+        fail(common, "sort a matrix");
       return result;
     }
 
@@ -265,6 +278,13 @@ namespace taut
       if (entries.row[k] == entries.column[k])
         w.diagonal[entries.row[k]] += entries.value[k];
 
+    // CHOLMOD takes no matrix without entries.
+    if (n == 0 || entries.size() == 0)
+    {
+      cholmod_free_factor(&w.factors, &w.common);
+      cholmod_free_sparse(&w.matrix, &w.common);
+      return 0;
+    }
     cholmod_sparse *matrix = w.compressed(n, entries);
     if (!w.factors || !w.has_pattern_of(*matrix))
     {
@@ -275,13 +295,15 @@ namespace taut
     w.matrix = matrix;
     if (w.factors)
       cholmod_factorize(matrix, w.factors, &w.common);
-    if (!w.factors || w.common.status == CHOLMOD_OUT_OF_MEMORY)
-      throw std::bad_alloc();
+    if (!w.factors || w.common.status < CHOLMOD_OK)
+      fail(w.common, "factor a matrix");
     return w.first_bad_pivot(smallest_pivot);
   }
 
   void SparseCholesky::solve(std::vector<double> &x) const
   {
+    if (x.empty())
+      return;
     Workspace &w = *work;
     cholmod_dense rhs{};
     rhs.nrow = rhs.d = rhs.nzmax = x.size();
@@ -292,11 +314,7 @@ namespace taut
     w.restore_workspace();
     if (!cholmod_solve2(CHOLMOD_A, w.factors, &rhs, nullptr, &w.result, nullptr, &w.workspace_y,
                         &w.workspace_e, &w.common))
-    {
-      if (w.common.status == CHOLMOD_OUT_OF_MEMORY)
-        throw std::bad_alloc();
-      throw std::runtime_error("CHOLMOD failed to solve");
-    }
+      fail(w.common, "solve");
     const auto *solution = static_cast<const double *>(w.result->x);
     std::copy(solution, solution + x.size(), x.begin());
   }
@@ -356,13 +374,17 @@ namespace taut
   std::vector<unsigned int> fill_reducing_order(const std::size_t n,
                                                 const SymmetricEntries &positions)
   {
-    if (n == 0)
-      return {};
+    if (positions.size() == 0)
+    {
+      std::vector<unsigned int> as_given(n);
+      std::iota(as_given.begin(), as_given.end(), 0);
+      return as_given;
+    }
     SparseCholesky::Workspace w(CholeskyMethod::simplicial);
     w.matrix = w.compressed(n, positions);
     w.factors = cholmod_analyze(w.matrix, &w.common);
     if (!w.factors)
-      throw std::bad_alloc();
+      fail(w.common, "order a matrix");
     const auto *order = static_cast<const int *>(w.factors->Perm);
     return std::vector<unsigned int>(order, order + n);
   }

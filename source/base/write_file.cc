@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/growing_file.h>
+#include <taut/base/text.h>
 #include <taut/base/write_file.h>
 
 #include <fcntl.h>
@@ -38,10 +39,16 @@ namespace taut
       file.close();
     }
 
+    /// A name beside @p path that no other process takes, on any machine of the disk.
+    std::string own_name(const fs::path &path)
+    {
+      return to_text(path.string(), ".", gethostid(), ".", getpid(), ".tmp");
+    }
+
     /// Writes the file beside its place, and renames it.
     void put_in_place(const fs::path &path, const std::string &bytes, const bool syncs)
     {
-      const std::string next = path.string() + ".tmp";
+      const std::string next = own_name(path);
       try
       {
         write_new(next, bytes, syncs);

@@ -109,8 +109,8 @@ namespace taut
         continue;
       for (std::size_t j = 0; j < n; ++j)
         column[j] = (*this)(i, j);
-      if (!solve(set, column, 0., solution))
-        solve(set, column, shift, solution);
+      if (!solve(set, column, 0., solution) && !solve(set, column, shift, solution))
+        continue;
       for (const std::size_t b : set)
         result[i] -= column[b] * solution[b];
     }

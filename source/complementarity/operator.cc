@@ -17,8 +17,8 @@ namespace taut
       unit[i] = 1.;
       apply(unit, column);
       unit[i] = 0.;
-      if (!solve(set, column, 0., x))
-        solve(set, column, shift, x);
+      if (!solve(set, column, 0., x) && !solve(set, column, shift, x))
+        continue;
       for (const std::size_t b : set)
         result[i] -= column[b] * x[b];
     }

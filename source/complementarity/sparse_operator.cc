@@ -259,12 +259,11 @@ namespace taut
     result.assign(n, 0.);
     const bool is_definite = prepare(factor, set, 0.);
     Factor &used = is_definite ? factor : shifted_factor;
-    if (!is_definite)
-      prepare(used, set, shift);
+    const bool is_solved = is_definite || prepare(used, set, shift);
     work.assign(n_interior, 0.);
     rhs_border.assign(border.size(), 0.);
     for (const std::size_t i : wanted)
-      result[i] = condensed(used, i);
+      result[i] = is_solved ? condensed(used, i) : diagonal(i);
   }
 
   /// F_ii - F_ia F_aa^-1 F_ai of the current set; `work` is 0 before and after.

@@ -46,13 +46,16 @@ namespace taut
   {
     compliance = S;
     columns.setup();
+    shares.clear();
     for (const std::size_t i : constraints.fixed_rows())
-    {
-      shares.clear();
       for (std::size_t j = 0; j <= i; ++j)
         shares.push_back(columns.entry(i, j));
-      processes.sum(shares);
-      set_row(i, shares.data());
+    processes.sum(shares);
+    const double *share = shares.data();
+    for (const std::size_t i : constraints.fixed_rows())
+    {
+      set_row(i, share);
+      share += i + 1;
     }
     update_moving();
   }

@@ -64,14 +64,14 @@ namespace taut
   void ContactSchurOperator::scaled_apply(const std::vector<double> &x,
                                           std::vector<double> &y) const
   {
-    const std::vector<double> &D = *scale;
+    const auto D = [this](const std::size_t i) { return scale ? (*scale)[i] : 1.; };
     scaled.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
-      scaled[i] = active[i] ? D[i] * x[i] : x[i];
+      scaled[i] = active[i] ? D(i) * x[i] : x[i];
     y.resize(x.size());
     apply(scaled.data(), y.data());
     for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = active[i] ? D[i] * y[i] : x[i];
+      y[i] = active[i] ? D(i) * y[i] : x[i];
   }
 
   void ContactSchurOperator::multiply(const std::vector<double> &x, std::vector<double> &y) const

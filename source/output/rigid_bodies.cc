@@ -48,7 +48,7 @@ namespace taut
     if (!has_begun)
     {
       find_bodies(step);
-      open(false);
+      step.structure.communicator().agree([&] { open(false); });
     }
     if (!(step.state.time >= next - 1e-9 * interval))
       return;
@@ -96,7 +96,7 @@ namespace taut
     std::size_t length = 0;
     archive >> next >> length;
     find_bodies(step);
-    open(true);
+    step.structure.communicator().agree([&] { open(true); });
     if (file)
       file->resume(length);
   }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <thread>
 
 namespace
 {
@@ -40,6 +41,9 @@ namespace
              {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
              {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"}})
       setenv(variable, value, 0);
+    // A worker that waits gives its core to another: Open MPI 5 does so on demand only.
+    if (n > std::thread::hardware_concurrency())
+      setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     execvp("mpirun", pointers.data());
   }
 

@@ -3,6 +3,7 @@
 #include <taut/simulation/observed_run.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <ostream>
 
@@ -118,8 +119,19 @@ namespace taut
   void ObservedRun::finish()
   {
     last = Clock::now();
+    std::exception_ptr failure; // the first one; the others finish first
     for (Observer *observer : observers)
-      observer->finish();
+      try
+      {
+        observer->finish();
+      }
+      catch (...)
+      {
+        if (!failure)
+          failure = std::current_exception();
+      }
+    if (failure)
+      std::rethrow_exception(failure);
   }
 
   std::vector<std::string> ObservedRun::save() const

@@ -3,6 +3,7 @@
 #include "file_text.h"
 
 #include <taut/simulation/parameters.h>
+#include <taut/time/named_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
@@ -115,8 +116,7 @@ namespace taut
       integrator->declare_parameters(prm);
       for (const auto &[path, value] : entries_below("Time/"))
       {
-        if (path.find('/') == std::string::npos ||
-            !prm.subsection_path_exists({path.substr(0, path.find('/'))}))
+        if (!set_declared_entry(path, value, prm))
           continue;
         const auto other = entries.find(path);
         const bool has_part =

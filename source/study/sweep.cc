@@ -230,7 +230,7 @@ namespace taut
   /// Gives all workers the data of the table that the root has.
   void Sweep::share_columns()
   {
-    std::string shared = std::to_string(n_done);
+    std::string shared = std::to_string(n_done) + (is_resumed ? " resumed" : "");
     for (const std::string &name : names)
       shared += '\n' + name;
     workers.broadcast(shared);
@@ -238,6 +238,7 @@ namespace taut
     std::string first;
     std::getline(lines, first);
     n_done = std::stoul(first);
+    is_resumed = first.find(' ') != std::string::npos;
     names.clear();
     for (std::string name; std::getline(lines, name);)
       names.push_back(name);

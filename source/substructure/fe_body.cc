@@ -20,6 +20,36 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Refuses constraints that were closed before: hanging nodes then do not follow the DoFs in
+    /// @p moved.
+    template <int dim, typename Value>
+    void check_hanging_nodes(const FEBody<dim> &body,
+                             const std::map<dealii::types::global_dof_index, Value> &moved)
+    {
+      if (moved.empty() || !body.dof_handler().get_triangulation().has_hanging_nodes())
+        return;
+      dealii::AffineConstraints<double> whole;
+      dealii::DoFTools::make_hanging_node_constraints(body.dof_handler(), whole);
+      whole.close();
+      for (const auto &line : whole.get_lines())
+      {
+        if (!body.has_dof(line.index) || moved.count(line.index) != 0)
+          continue;
+        const auto known = body.displacement_of_dof(line.index).index;
+        for (const auto &[dof, weight] : line.entries)
+          if (moved.count(dof) != 0 &&
+              std::find(known.begin(), known.end(), body.index(dof)) == known.end())
+            throw UserError("body '" + body.name() + "': DoF " + std::to_string(dof) +
+                            " is prescribed, and the constraint of hanging DoF " +
+                            std::to_string(line.index) +
+                            " has forgotten it; hand over AffineConstraints that are not closed, "
+                            "or prescribe that DoF, too");
+      }
+    }
+  } // namespace
+
   /// A time-dependent load on the kept DoFs.
   template <int dim>
   class FEBody<dim>::Load : public TimeLoad
@@ -93,8 +123,7 @@ namespace taut
         throw UserError("body '" + name + "': DoF " + std::to_string(dof) +
                         " depends on others and has an inhomogeneity; prescribe those others");
       constrained.push_back({i});
-      if (value != 0.)
-        constrained.back().motion = [value](double) { return value; };
+      constrained.back().displacement = value;
     }
 
     M = std::make_unique<CompressedMatrix>(n);
@@ -251,6 +280,7 @@ namespace taut
   {
     for (const auto &[dof, motion] : motions)
       prescribed(dof).motion = motion;
+    check_hanging_nodes(*this, motions);
     finish();
   }
 
@@ -260,6 +290,7 @@ namespace taut
   {
     for (const auto &[dof, displacement] : displacements)
       prescribed(dof).displacement = displacement;
+    check_hanging_nodes(*this, displacements);
     finish();
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
-#include <taut/time/integrator.h>
+#include <taut/time/named_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -39,15 +39,7 @@ namespace taut
     dealii::ParameterHandler prm;
     result->declare_parameters(prm);
     for (const auto &[path, value] : entries)
-    {
-      const std::size_t end = path.find('/');
-      const std::string section = path.substr(0, end);
-      if (end == std::string::npos || !prm.subsection_path_exists({section}))
-        continue;
-      prm.enter_subsection(section);
-      prm.set(path.substr(end + 1), value);
-      prm.leave_subsection();
-    }
+      set_declared_entry(path, value, prm);
     return result;
   }
 

@@ -43,16 +43,13 @@ namespace taut
       return result;
     }
 
-    /// Sets a known entry; its path has one section.
+    /// Sets a known entry.
     void set_entry(const std::string &path, const std::string &value, dealii::ParameterHandler &prm)
     {
-      const std::size_t slash = path.find('/');
-      prm.enter_subsection(path.substr(0, slash));
-      const std::string name = path.substr(slash + 1);
       std::string pattern;
       try
       {
-        prm.set(name, value);
+        set_declared_entry(path, value, prm);
       }
       catch (const dealii::ExceptionBase &e)
       {
@@ -61,11 +58,25 @@ namespace taut
         const std::size_t begin = out.str().find('['), end = out.str().rfind(']');
         pattern = end == std::string::npos ? "[]" : out.str().substr(begin, end - begin + 1);
       }
-      prm.leave_subsection();
       if (!pattern.empty())
         throw UserError("'" + path + "' cannot be '" + value + "'; it takes " + pattern);
     }
   } // namespace
+
+  bool set_declared_entry(const std::string &path, const std::string &value,
+                          dealii::ParameterHandler &prm)
+  {
+    const std::vector<std::string> known = entries_of(prm);
+    if (std::find(known.begin(), known.end(), path) == known.end())
+      return false;
+    std::size_t begin = 0, end = 0;
+    for (; (end = path.find('/', begin)) != std::string::npos; begin = end + 1)
+      prm.enter_subsection(path.substr(begin, end - begin));
+    prm.set(path.substr(begin), value);
+    for (std::size_t n = std::count(path.begin(), path.end(), '/'); n > 0; --n)
+      prm.leave_subsection();
+    return true;
+  }
 
   std::unique_ptr<TimeIntegrator>
   make_named_scheme(const std::string &name, const std::map<std::string, std::string> &entries)

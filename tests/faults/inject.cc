@@ -57,7 +57,7 @@ namespace
 {
   using namespace faults;
 
-  constexpr unsigned int patience = 120; ///< of a run; it ends by SIGALRM [s]
+  constexpr unsigned int patience = 150; ///< of a run; it ends by SIGALRM [s]
 
   constexpr Fault all_faults[] = {{"files", Counted::files, 0, false, false},
                                   {"EIO", Counted::files, EIO, false, false},

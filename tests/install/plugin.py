@@ -17,7 +17,7 @@ arguments = parse(__doc__, "program", "mpiexec", "prm", "build")
 
 def run(*options, ranks=1):
     command = on_ranks(arguments.mpiexec, ranks, [arguments.program, arguments.prm, *options])
-    return subprocess.run(command, cwd=arguments.build, capture_output=True, text=True, timeout=300)
+    return subprocess.run(command, cwd=arguments.build, capture_output=True, text=True, timeout=900)
 
 
 def columns(path):

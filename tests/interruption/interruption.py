@@ -77,7 +77,7 @@ end
 # What the error says, and between which times it comes: that of a push that becomes infinite in mid-run and those of MEETING.
 ERRORS = [(FAILING, "push", .5, .5),
           (MEETING, r"taut: .*t = 0\.052\d* s: the ends of link 'prop' meet.*\(0, 0, 0\) m", .052, .0524)]
-PATIENCE = 400.  # [s]; ranks that share a busy core wait for each other at every step
+PATIENCE = 1200.  # [s]; ranks that share a busy core wait for each other at every step
 
 
 class Program:

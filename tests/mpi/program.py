@@ -24,7 +24,7 @@ SHORT = {  # what makes a long scene short
 
 def run(ranks, options):
     command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
-    return subprocess.run(command, capture_output=True, text=True, timeout=300)
+    return subprocess.run(command, capture_output=True, text=True, timeout=900)
 
 
 def words(text):
@@ -113,6 +113,11 @@ with tempfile.TemporaryDirectory() as name:
     check_same_words([stop, "--unknown"], 1)
     check_same_words([line, *out, "--set", "Time/End=9", "--set", "Time/Step=0.1"], 1)  # leaves its wire
     check_same_words([stop, "--set", "Output/Folder=/proc/none"], 1)  # only the root fails
+    # A folder is where the root wants to write, at the first step: all ranks end with its error.
+    blocked = scratch / "blocked"
+    (blocked / "rigid_bodies.csv" / "kept").mkdir(parents=True)
+    check_same_words([str(arguments.prm / "bar_on_two_cables.prm"), "--overwrite",
+                      *entries(f"Output/Folder={blocked}", "Output/Observers=rigid bodies", "Time/End=0.02")], 1)
     # Rounding loses what holds a wire of so many elements: only its owner fails.
     check_same_words([line, *out, "--set", "Catenary/Contact wire/Element size=5e-3"], 1)
 

@@ -22,7 +22,7 @@ arguments = parse(__doc__, "program", "mpiexec", "prm", serial=(0, "runs of one 
 
 LINE = "en50318_2002_250.prm"
 CONTACT = "Catenary/Pantograph pantograph/Contact stiffness"
-PATIENCE = 600.  # [s]
+PATIENCE = 1800.  # [s]
 # Between them they have all that is kept from step to step: schemes with and without mean forces, impulses, adaptive
 # steps, extremes in tables, fields, energies, all forms of the interface operator, moving contacts and supports.
 SCENES = [

@@ -38,7 +38,7 @@ def scene(folder, name, parameters, **entries):
 
 def taut(folder, *options, ranks=1):
     command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=1800)
 
 
 def sweep(folder, name, to, *options, ranks=1):
@@ -98,7 +98,7 @@ def check_random(folder):
         expect(f"{ranks} workers", sweep(folder, name, f"random_{ranks}", ranks=ranks) == first)
     environment = dict(os.environ, PATH=f"{pathlib.Path(arguments.mpiexec).parent}:{os.environ['PATH']}")
     result = subprocess.run([arguments.program, name, "--sweep", "-j", "2", "--set", "Sweep/Folder=jobs"], cwd=folder,
-                            capture_output=True, text=True, timeout=600, env=environment)
+                            capture_output=True, text=True, timeout=1800, env=environment)
     expect("--jobs", "on 2 workers" in result.stdout and (folder / "jobs" / "sweep.csv").read_bytes() == first,
            result.stdout + result.stderr)
     check_killed(folder, name, first)
@@ -135,7 +135,7 @@ def check_killed(folder, name, reference):
         time.sleep(0.01)
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
-    said = process.communicate(timeout=600)[1]
+    said = process.communicate(timeout=1800)[1]
     expect("SIGINT", process.returncode == 130 and "sweep ended by SIGINT with" in said and "--sweep --resume" in said, said)
 
 
@@ -189,6 +189,42 @@ def check_pictures(folder):
     expect("no such quantity", result.returncode == 1 and result.stderr.startswith("taut-plot: --quantity nothing"), result.stderr)
 
 
+def check_files(folder):
+    """Files that only cases name: all workers put one copy of each into the folder, and a sweep that is resumed on several
+    workers says which of them has changed."""
+    def write(name, force, n_rows=3):
+        rows = "".join(f"{0.3 * i / (n_rows - 1)},{force}\n" for i in range(n_rows))
+        (folder / name).write_text("t,F\n" + rows + f"0.3001,0\n9,0\n")
+
+    load = ("subsection Network\n  set Loads = push\n  subsection Load push\n    set On = mass\n    set Direction = 0, 1\n"
+            "    set Magnitude = 0\n  end\nend\n")
+    magnitude = "Network/Load push/Magnitude"
+    write("long.csv", 3, 20000)
+    name = scene(folder, "one_file.prm", {"F": {"Entries": magnitude, "Values": "table(long.csv, F); 0"},
+                                          "mass": {"Entries": MASS, "Values": "1:1:8"}})
+    (folder / name).write_text((folder / name).read_text() + load)
+    for attempt in range(2):
+        table = rows(sweep(folder, name, f"one_file_{attempt}", "--set", "Time/End=0.1", ranks=4))
+        expect("cases of one file", len(table) == 16 and not any(row["message"] for row in table), table[:1])
+        kept = sorted(path.name for path in (folder / f"one_file_{attempt}").iterdir())
+        expect("one copy of the file", kept == ["long.csv", "sweep.csv", "sweep.prm"], kept)
+
+    for case in range(6):
+        write(f"push_{case}.csv", 10 * case)
+    files = {"F": {"Entries": magnitude, "Values": "; ".join(f"table(push_{case}.csv, F)" for case in range(6))}}
+    name = scene(folder, "files.prm", files)
+    (folder / name).write_text((folder / name).read_text() + load)
+    whole = sweep(folder, name, "files", ranks=2)
+    table = folder / "files" / "sweep.csv"
+    table.write_bytes(b"".join(whole.splitlines(keepends=True)[:3]))
+    write("push_3.csv", 1000)  # of the second worker
+    result = taut(folder, name, "--sweep", "--resume", "--set", "Sweep/Folder=files", ranks=2)
+    expect("a changed file of a case", result.returncode == 1 and "push_3.csv" in result.stderr and "is not what it was" in result.stderr,
+           f"{result.returncode} {result.stderr}")
+    write("push_3.csv", 30)
+    expect("the file put back", sweep(folder, name, "files", "--resume", ranks=2) == whole)
+
+
 def check_mistakes(folder):
     mass = {"Entries": MASS, "Values": "1, -2, 3"}
     name = scene(folder, "failing.prm", {"mass": mass})
@@ -226,7 +262,7 @@ def check_mistakes(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_values, check_random, check_sharing, check_pictures, check_mistakes):
+    for check in (check_values, check_random, check_sharing, check_pictures, check_files, check_mistakes):
         folder = pathlib.Path(name) / check.__name__
         folder.mkdir()
         check(folder)

@@ -7,11 +7,14 @@
 #include <taut/substructure/fe_body.h>
 #include <taut/time/stepper.h>
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/numerics/matrix_tools.h>
 
 #include <limits>
 
@@ -133,4 +136,127 @@ TEST(DoorFEBody, calls_that_do_not_fit_are_named)
   const Bar bar;
   for (const auto &call : calls)
     EXPECT_PRED2(names, error_of([&] { call(*bar.make()); }), "body 'bar'");
+}
+
+// A displacement that the constraints prescribe is no motion in time: it is where the support is,
+// and stays what watches the energy. u = u0 + weight (x - x^2 / 2) / EA.
+TEST(DoorFEBody, an_inhomogeneity_is_a_constant_displacement)
+{
+  for (const double given : {.02, -3.5})
+  {
+    Bar bar;
+    AffineConstraints<double> displaced;
+    displaced.add_line(0);
+    displaced.set_inhomogeneity(0, given);
+    displaced.close();
+    bar.constraints.copy_from(displaced);
+    taut::System system;
+    const std::size_t body = system.add("bar", [&] { return bar.make(); });
+    EXPECT_FALSE(system.body(body)->has_moving_constraints());
+    EXPECT_TRUE(system.body(body)->has_displaced_constraints());
+    const taut::Stepper stepper(system);
+    EXPECT_NEAR(stepper.displacement(system.displacement(body, {.5}, {1., 0., 0.})),
+                given + weight * .375 / EA, 1e-13);
+    // prescribe_displacements() replaces it.
+    const auto moved = bar.make();
+    moved->prescribe_displacements({{0, 2. * given}});
+    EXPECT_EQ(moved->constraints().front().at(7.), 2. * given);
+  }
+}
+
+namespace
+{
+  /// A membrane of 2 m x 1 m with unit tension; its left half is refined, so that the line x = 1
+  /// has hanging nodes. Its lower and its upper edge are prescribed.
+  struct Membrane
+  {
+    Triangulation<2> mesh;
+    FE_Q<2> element;
+    DoFHandler<2> dofs{mesh};
+    AffineConstraints<double> constraints;
+    SparsityPattern pattern;
+    SparseMatrix<double> M, C, K;
+    std::vector<Point<2>> points;
+    std::vector<types::global_dof_index> edges;
+
+    explicit Membrane(const unsigned int degree) : element(degree)
+    {
+      GridGenerator::subdivided_hyper_rectangle(mesh, {2, 1}, Point<2>(0., 0.), Point<2>(2., 1.));
+      mesh.begin_active()->set_refine_flag();
+      mesh.execute_coarsening_and_refinement();
+      dofs.distribute_dofs(element);
+      points.resize(dofs.n_dofs());
+      DoFTools::map_dofs_to_support_points(MappingQ1<2>(), dofs, points);
+      DoFTools::make_hanging_node_constraints(dofs, constraints);
+      for (types::global_dof_index i = 0; i < dofs.n_dofs(); ++i)
+        if (std::fabs(points[i][1] * (1. - points[i][1])) < 1e-12)
+        {
+          constraints.add_line(i);
+          edges.push_back(i);
+        }
+      DynamicSparsityPattern entries(dofs.n_dofs());
+      DoFTools::make_sparsity_pattern(dofs, entries);
+      pattern.copy_from(entries);
+      for (auto *matrix : {&M, &K})
+        matrix->reinit(pattern);
+      MatrixCreator::create_mass_matrix(dofs, QGauss<2>(degree + 1), M);
+      MatrixCreator::create_laplace_matrix(dofs, QGauss<2>(degree + 1), K);
+    }
+
+    std::unique_ptr<taut::FEBody<2>> make() const
+    {
+      return std::make_unique<taut::FEBody<2>>("skin", dofs, M, C, K, constraints);
+    }
+  };
+} // namespace
+
+// Prescribed edges take hanging nodes with them: the displacement a + b y + c x is exact. Closed
+// constraints have forgotten the edges, and are refused.
+TEST(DoorFEBody, hanging_nodes_follow_prescribed_edges)
+{
+  const auto exact = [](const Point<2> &p) { return .3 + .7 * p[1] - .2 * p[0]; };
+  for (const unsigned int degree : {1, 2})
+    for (const bool is_motion : {true, false})
+    {
+      Membrane skin(degree);
+      for (types::global_dof_index i = 0; i < skin.dofs.n_dofs(); ++i) // sides, too
+        if (std::fabs(skin.points[i][0] * (2. - skin.points[i][0])) < 1e-12 &&
+            !skin.constraints.is_constrained(i))
+        {
+          skin.constraints.add_line(i);
+          skin.edges.push_back(i);
+        }
+      std::map<types::global_dof_index, std::function<double(double)>> motions;
+      std::map<types::global_dof_index, double> displacements;
+      for (const auto i : skin.edges)
+      {
+        motions[i] = [value = exact(skin.points[i])](const double t) { return (1. + t) * value; };
+        displacements[i] = exact(skin.points[i]);
+      }
+      const auto prescribe = [&](taut::FEBody<2> &body)
+      {
+        if (is_motion)
+          body.prescribe(motions);
+        else
+          body.prescribe_displacements(displacements);
+      };
+      taut::System system;
+      const std::size_t number = system.add("skin",
+                                            [&]
+                                            {
+                                              auto body = skin.make();
+                                              prescribe(*body);
+                                              return body;
+                                            });
+      const taut::Stepper stepper(system);
+      for (const Point<2> &p : {Point<2>(1., .5), Point<2>(1., .25), Point<2>(.6, .8)})
+        EXPECT_NEAR(stepper.displacement(system.displacement(number, {p[0], p[1]}, {0., 0., 1.})),
+                    exact(p), 1e-12)
+            << degree;
+      skin.constraints.close();
+      const std::string message = error_of([&] { prescribe(*skin.make()); });
+      EXPECT_TRUE(has(message, "body 'skin'") && has(message, "hanging DoF") &&
+                  has(message, "not closed"))
+          << message;
+    }
 }

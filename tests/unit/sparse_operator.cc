@@ -196,3 +196,30 @@ TEST(SparseOperator, takes_entries_in_other_places)
     expect_same_solutions(F, set);
   }
 }
+
+// Rows that no multiplier moves, or that no shift makes definite, do not condense the others.
+TEST(SparseOperator, rows_without_an_answer_leave_the_diagonal)
+{
+  // Row 1 has no entry; rows 2 and 3 have a negative determinant.
+  const double F[4][4] = {{2., 0., .3, .1}, {0., 0., 0., 0.}, {.3, 0., 1., 2.}, {.1, 0., 2., 1.}};
+  taut::DenseOperator dense(4);
+  taut::SparseOperator sparse;
+  sparse.reinit(4, 0);
+  taut::SymmetricEntries entries;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+    {
+      dense.set(i, j, F[i][j]);
+      entries.add(i, j, F[i][j]);
+    }
+  sparse.set_interior(entries);
+  for (const std::vector<std::size_t> &set : {std::vector<std::size_t>{1}, {2, 3}, {1, 2, 3}})
+  {
+    std::vector<double> x, y, z;
+    sparse.condensed_diagonal({0}, set, 1e-9, x);
+    dense.condensed_diagonal({0}, set, 1e-9, y);
+    dense.ComplementarityOperator::condensed_diagonal({0}, set, 1e-9, z);
+    for (const std::vector<double> &result : {x, y, z})
+      EXPECT_EQ(result, (std::vector<double>{2., 0., 0., 0.})) << set.size();
+  }
+}

@@ -3,11 +3,15 @@
 #define taut_constraint_operator_h
 
 #include <Epetra_LocalMap.h>
+#include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
 #include <Epetra_Operator.h>
 #include <Epetra_SerialComm.h>
 
+#include <mpi.h>
+
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace taut
@@ -17,7 +21,8 @@ namespace taut
   {
   public:
     explicit ConstraintOperator(const std::size_t n_constraints)
-        : map(static_cast<int>(n_constraints), 0, communicator), in(n_constraints)
+        : communicator(make_communicator()), map(static_cast<int>(n_constraints), 0, *communicator),
+          in(n_constraints)
     {
     }
 
@@ -48,7 +53,7 @@ namespace taut
     const char *Label() const override { return "constraints"; }
     bool UseTranspose() const override { return false; }
     bool HasNormInf() const override { return false; }
-    const Epetra_Comm &Comm() const override { return communicator; }
+    const Epetra_Comm &Comm() const override { return *communicator; }
     const Epetra_Map &OperatorDomainMap() const override { return map; }
     const Epetra_Map &OperatorRangeMap() const override { return map; }
 
@@ -56,7 +61,17 @@ namespace taut
     /// y = A x
     virtual void multiply(const std::vector<double> &x, std::vector<double> &y) const = 0;
 
-    Epetra_SerialComm communicator;
+    /// This process alone; AztecOO, where it knows MPI, takes nothing but a communicator of MPI.
+    static std::unique_ptr<Epetra_Comm> make_communicator()
+    {
+      int is_on = 0;
+      MPI_Initialized(&is_on);
+      if (is_on)
+        return std::make_unique<Epetra_MpiComm>(MPI_COMM_SELF);
+      return std::make_unique<Epetra_SerialComm>();
+    }
+
+    const std::unique_ptr<Epetra_Comm> communicator;
     Epetra_LocalMap map;
     mutable std::vector<double> in, out;
     mutable int products = 0;

@@ -37,7 +37,7 @@ namespace taut
     /// Adds factor * diagonal to F, one entry a constraint.
     void set_shift(double factor, const std::vector<double> &diagonal);
 
-    /// Sets D > 0, kept by reference; required before products with D F D.
+    /// Sets D > 0, kept by reference; without it D is the identity.
     void set_scale(const std::vector<double> &D) { scale = &D; }
 
     /// Sets P, kept by reference; null: the identity.

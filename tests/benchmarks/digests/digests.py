@@ -23,7 +23,7 @@ def run(command):
     environment = dict(os.environ, TAUT_INSTRUCTION_SET="baseline", OPENBLAS_NUM_THREADS="1",
                        OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                        OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_btl="^tcp",
-                       PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe")
+                       PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe", OMPI_MCA_mpi_yield_when_idle="1")
     try:
         result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1500)
     except subprocess.TimeoutExpired:
