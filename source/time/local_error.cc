@@ -39,8 +39,13 @@ namespace taut
                                   : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
       impulse[i] = of.c.velocity_projection ? step * (V[i] - V0[i] - step * A[i]) : 0.;
     }
+    // A prescribed place has no error, but its kinks and jumps need short steps.
     for (const ConstrainedDof &constraint : structure[k].constraints())
-      motion[constraint.dof] = impulse[constraint.dof] = 0.;
+    {
+      const unsigned int i = constraint.dof;
+      motion[i] = dU[i] - .5 * step * (V0[i] + V[i]);
+      impulse[i] = 0.;
+    }
   }
 
   /// Multipliers of internal constraints are no motions, and may be rounding.

@@ -58,9 +58,10 @@ namespace taut
     one.a = (one.v - v0) / step;
     if (has_rates)
       rate_lift[k][dof] = step * (v0 + (1. - c.alpha_f) * (one.v - v0)) - way;
-    // From the middles of two steps to the end of the last one.
-    if (!c.acceleration_is_mean() && before > 0.)
-      one.a += step / (step + before) * (one.a - (v0 - state.V_old[k][dof]) / before);
+    // From the middles of two steps to the time of the acceleration.
+    if (before > 0.)
+      one.a += (1. + 2. * (c.alpha_m - c.alpha_f)) * step / (step + before) *
+               (one.a - (v0 - state.V_old[k][dof]) / before);
   }
 
   void PrescribedMotions::impose_increments(BodyVectors &U) const

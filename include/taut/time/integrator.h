@@ -63,12 +63,6 @@ namespace taut
              !looks_back() && !mean_force && !is_at_rest();
     }
 
-    /// True if the acceleration is the mean over the step, (V - V0) / step.
-    bool acceleration_is_mean() const
-    {
-      return v_A == 0. && a_A == 0. && alpha_m == 0. && !looks_back();
-    }
-
     /// True if velocity or acceleration need more of the past than V0 and A0.
     bool looks_back() const { return v_dU != 0. || a_dU != 0. || a_V_old != 0.; }
 

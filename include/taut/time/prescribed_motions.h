@@ -18,13 +18,14 @@ namespace taut
    *
    * In the equation of motion of the step act
    *
-   *     V = du / step + (v - v0) / 2,    A = (v - v0) / step  [+ half its change since the last
-   * step]
+   *     V = du / step + (v - v0) / 2,
+   *     A = (v - v0) / step + (1/2 + alpha_m - alpha_f) change
    *
-   * with v = u'. Both agree with u' and u'' at the end of the step to second order, and their sums
-   * over steps are those of du and v: dampers and inertia transmit the whole impulse of a kink or
-   * a jump inside of a step. The term in brackets is left out where the A of the scheme is a mean
-   * over the step.
+   * with v = u' and the change of (v - v0) / step since the last step. Both agree with u' and u''
+   * to second order, and their sums over steps are those of du and v: dampers and inertia transmit
+   * the whole impulse of a kink or a jump inside of a step. Accelerations of a scheme with averaged
+   * balances are those of the time t + (alpha_m - alpha_f) step (J. Chung, G. M. Hulbert, J. Appl.
+   * Mech. 60 (1993)); with the theta method at 1/2 that is the mean over the step.
    */
   class PrescribedMotions
   {
