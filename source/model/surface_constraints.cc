@@ -257,6 +257,28 @@ namespace taut
     return result;
   }
 
+  std::vector<InnerPoint> contact_inner_points(const Scene &scene, const std::size_t number,
+                                               const ContactGeometry &geometry)
+  {
+    const SurfaceContact &contact = scene.contacts[number];
+    const double reach = contact.search_distance;
+    ContactSurface slave = geometry.slave, master = geometry.master;
+    std::vector<InnerPoint> result;
+    if (contact.obstacle.shape != ObstacleSetting::Shape::none)
+      result =
+          obstacle_inner_points(slave, *make_obstacle(contact.obstacle, slave.dim == 2 ? 2 : 3),
+                                reach > 0. ? reach : std::numeric_limits<double>::infinity());
+    else
+    {
+      if (slave.dim == 1 || master.dim == 1)
+        lay_into_plane(contact, slave, master);
+      result = inner_points(slave, master, reach > 0. ? reach : automatic_search_distance);
+    }
+    for (InnerPoint &p : result)
+      p.constraint.gap += contact.gap;
+    return result;
+  }
+
   Scene choose_slaves(Scene scene)
   {
     const auto n_overhanging = [](const ContactGeometry &geometry)

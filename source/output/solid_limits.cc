@@ -23,6 +23,11 @@ namespace taut
     /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
     constexpr double small_kink = .03;
 
+    /// Depth between nodes of a face, over its length, above which there is a warning. At a contact
+    /// that carries it is the strain that linear elasticity leaves to solve; at one that never
+    /// does, there should have been a force.
+    constexpr double small_depth = .01, no_depth = 1e-4;
+
     /// Part of the weights of a master by which a point is beside its nodes.
     constexpr double at_node = 1e-6;
 
@@ -154,6 +159,9 @@ namespace taut
     contact.first_left_out = forms.size();
     for (const SurfaceConstraint &c : contact.left_out)
       add(c, nullptr);
+    contact.inner = contact_inner_points(scene, number, contact.geometry);
+    for (const InnerPoint &p : contact.inner)
+      add(p.constraint, nullptr);
     contacts.push_back(std::move(contact));
   }
 
@@ -176,9 +184,9 @@ namespace taut
     record_contacts(step);
     const Worst &t = worst[turn], &s = worst[sliding];
     if (t.excess > 1. && t.value > bodies[t.item].largest)
-      throw EntryError(bodies[t.item].origin + "/Largest turn", text_of(turn));
+      throw EntryError(bodies[t.item].origin + "/Largest turn", text_of(turn, t));
     if (s.excess > 1. && s.value > contacts[s.item].largest)
-      throw EntryError(contacts[s.item].origin + "/Largest sliding", text_of(sliding));
+      throw EntryError(contacts[s.item].origin + "/Largest sliding", text_of(sliding, s));
   }
 
   void SolidLimits::record_turns(const double time)
@@ -200,7 +208,7 @@ namespace taut
     const double time = step.state.time;
     for (std::size_t k = 0; k < contacts.size(); ++k)
     {
-      const Sliding &contact = contacts[k];
+      Sliding &contact = contacts[k];
       const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
       std::size_t row = 0;
       while (step.constraints[row].contact != contact.contact)
@@ -209,6 +217,7 @@ namespace taut
       {
         if (!(step.state.multiplier[row] > 0.))
           continue;
+        contact.carries = true;
         if (contact.can_slide)
         {
           const double *const u = values.data() + contact.first + 3 * i;
@@ -226,6 +235,14 @@ namespace taut
       }
       for (std::size_t i = 0; i < contact.left_out.size(); ++i)
         keep(search, -values[contact.first_left_out + i], contact.left_out[i].gap, time, k, i);
+      const double *const motion = values.data() + contact.first_left_out + contact.left_out.size();
+      for (std::size_t i = 0; i < contact.inner.size(); ++i)
+      {
+        const double depth = -contact.inner[i].constraint.gap - motion[i],
+                     excess = depth / contact.inner[i].face;
+        if (excess > contact.entered.excess)
+          contact.entered = {excess, depth, 0., time, k, i};
+      }
     }
   }
 
@@ -239,9 +256,8 @@ namespace taut
             << contact.left_out.size() << "; a Search distance takes them in\n";
   }
 
-  std::string SolidLimits::text_of(const Kind kind) const
+  std::string SolidLimits::text_of(const Kind kind, const Worst &w) const
   {
-    const Worst &w = worst[kind];
     std::ostringstream out;
     out.precision(4);
     if (kind == turn)
@@ -254,9 +270,9 @@ namespace taut
       return out.str();
     }
     const Sliding &contact = contacts[w.item];
-    const bool is_left_out = kind == search;
-    const SurfaceConstraint &c =
-        is_left_out ? contact.left_out[w.place] : contact.geometry.constraints[w.place];
+    const SurfaceConstraint &c = kind == search          ? contact.left_out[w.place]
+                                 : kind == between_nodes ? contact.inner[w.place].constraint
+                                                         : contact.geometry.constraints[w.place];
     const std::string at = to_text(std::setprecision(4), '(', c.point, ')');
     out << "contact '" << contact.name << "' ";
     if (kind == sliding)
@@ -281,6 +297,16 @@ namespace taut
       out << "acts at " << at << ", where faces of degree 2 have a kink of " << w.value
           << " rad: they do not follow a curve, and pressures alternate. Name the curve in Curved "
              "boundaries of the mesh, or take Degree = 1";
+    else if (kind == between_nodes)
+    {
+      const bool has_master = !contact.geometry.master.points.empty();
+      out << "does not act at " << at << ", inside a face of the slave of "
+          << contact.inner[w.place].face << " m, where the " << (has_master ? "master" : "obstacle")
+          << " enters by " << w.value << " m, t = " << w.time
+          << " s: forces act at nodes of the slave. Take elements of at most "
+          << contact.inner[w.place].needed_face(w.value) << " m there"
+          << (has_master ? ", or exchange Slave and Master" : "");
+    }
     else
       out << "does not act at " << at << ", which comes " << w.value << " m nearer to the master, "
           << w.limit << " m away, t = " << w.time
@@ -290,15 +316,33 @@ namespace taut
     return out.str();
   }
 
+  /// The worst case of places that the other side enters between nodes.
+  SolidLimits::Worst SolidLimits::worst_between_nodes() const
+  {
+    Worst result;
+    for (const Sliding &contact : contacts)
+    {
+      const double limit = contact.carries ? small_depth : no_depth;
+      if (contact.entered.excess / limit > result.excess)
+      {
+        result = contact.entered;
+        result.limit = limit * contact.inner[result.place].face;
+        result.excess /= limit;
+      }
+    }
+    return result;
+  }
+
   std::vector<Warning> SolidLimits::warnings() const
   {
-    const char *const names[] = {"turn",           "sliding", "overhang",
-                                 "nodes on faces", "facets",  "search"};
-    const char *const units[] = {"rad", "elements", "1", "1", "rad", "m"};
+    const char *const names[] = {"turn",   "sliding", "overhang",     "nodes on faces",
+                                 "facets", "search",  "between nodes"};
+    const char *const units[] = {"rad", "elements", "1", "1", "rad", "m", "m"};
     std::vector<Warning> result;
-    for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search})
-      if (const Worst &w = worst[kind]; w.excess > 1.)
-        result.push_back({names[kind], text_of(kind), w.value, w.limit, units[kind], w.time});
+    for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search, between_nodes})
+      if (const Worst w = kind == between_nodes ? worst_between_nodes() : worst[kind];
+          w.excess > 1.)
+        result.push_back({names[kind], text_of(kind, w), w.value, w.limit, units[kind], w.time});
     return result;
   }
 } // namespace taut

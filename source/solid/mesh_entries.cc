@@ -2,6 +2,7 @@
 #include "mesh_arguments.h"
 #include "solid_entries.h"
 
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 
@@ -12,9 +13,15 @@
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <boost/functional/hash.hpp>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <regex>
+#include <sstream>
+#include <unordered_map>
 
 namespace taut
 {
@@ -76,18 +83,40 @@ namespace taut
       return smallest;
     }
 
+    /// Coordinates of the corners of a cell, the same for each order of the corners.
+    template <typename Cell, int dim = Cell::AccessorType::dimension>
+    std::vector<double> corners(const Cell &cell)
+    {
+      std::vector<std::array<double, dim>> points(cell->n_vertices());
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int d = 0; d < dim; ++d)
+          points[v][d] = cell->vertex(v)[d];
+      std::sort(points.begin(), points.end());
+      std::vector<double> result;
+      for (const auto &x : points)
+        result.insert(result.end(), x.begin(), x.end());
+      return result;
+    }
+
     template <int dim>
     void check_cells(const dealii::Triangulation<dim> &cells, const std::string &entry)
     {
+      std::unordered_map<std::size_t, decltype(cells.begin_active())> by_corners;
       for (const auto &cell : cells.active_cell_iterators())
-        if (!(smallest_corner(cell) > flat))
-        {
-          throw EntryError(
-              entry,
-              to_text(
-                  "the cell about (", cell->center(),
-                  ") is flat or turned inside out at a corner; mend the mesh where it is made"));
-        }
+      {
+        const std::vector<double> places = corners(cell);
+        const auto [known, is_new] =
+            by_corners.emplace(boost::hash_range(places.begin(), places.end()), cell);
+        const char *const what =
+            !(smallest_corner(cell) > flat) ? "is flat or turned inside out at a corner"
+            : !is_new && corners(known->second) == places
+                ? "is given twice, and would be twice as stiff (gmsh writes a cell for each "
+                  "physical group that it is in)"
+                : nullptr;
+        if (what)
+          throw EntryError(entry, to_text("the cell about (", cell->center(), ") ", what,
+                                          "; mend the mesh where it is made"));
+      }
     }
   } // namespace
 
@@ -229,12 +258,14 @@ namespace taut
   template <int dim>
   void MeshEntries::read(dealii::Triangulation<dim> &cells, const std::string &section) const
   {
-    if (!std::ifstream(file))
-      throw EntryError(section + "File", "cannot read '" + file + "'");
+    const std::shared_ptr<const std::string> text = read_data_file(file, section + "File");
     try
     {
+      std::istringstream in(*text);
+      const std::string extension = std::filesystem::path(file).extension().string();
       dealii::GridIn<dim> reader(cells);
-      reader.read(file);
+      reader.read(in,
+                  extension.empty() ? reader.Default : reader.parse_format(extension.substr(1)));
     }
     catch (const std::exception &e)
     {

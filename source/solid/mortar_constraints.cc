@@ -20,8 +20,9 @@ namespace taut
     /// edge without holes.
     constexpr double small_integral = .02;
 
-    /// An uncovered part of an edge below this is rounding of the places of nodes.
-    constexpr double covered = 1e-6;
+    /// Below this, an uncovered part of an edge is none, and so is a covered part: the pressure
+    /// changes by as much.
+    constexpr double covered = 1e-4;
 
     using Small = std::array<double, 3>;
 
@@ -142,7 +143,7 @@ namespace taut
         {
           const double weight = p.weight * psi[i];
           MortarRow &row = rows[nodes[i]];
-          if (cover.uncovered > covered)
+          if (cover.uncovered > covered && cover.uncovered < 1. - covered)
             row.uncovered = std::max(row.uncovered, cover.uncovered);
           row.area += weight;
           row.gap += weight * dot(p.master.position - p.slave.position, normal);

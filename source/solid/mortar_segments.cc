@@ -13,10 +13,6 @@ namespace taut
     /// Cosine between the normals of two edges at a node below which they make a corner.
     constexpr double corner = .5;
 
-    /// Smallest cosine between the normal of a slave edge and the opposite normal of a master edge
-    /// for which the edges face each other.
-    constexpr double facing = .1;
-
     /// Largest distance at which a line of sight may pass a point of an edge, over the length of
     /// the edge.
     constexpr double hit = 1e-6;
@@ -71,7 +67,8 @@ namespace taut
 
   MortarSegments::MortarSegments(const SurfaceGeometry &slave, const SurfaceGeometry &master,
                                  const double distance)
-      : slave(slave), master(master), distance(distance), search(master), normals(slave.n_faces())
+      : slave(slave), master(master), distance(distance), search(master), overlap(slave, master),
+        normals(slave.n_faces())
   {
     average_normals();
   }
@@ -177,14 +174,14 @@ namespace taut
     // All points that the edge sees are in the hull of the points that the control points see.
     std::vector<Coordinates> hull;
     for (std::size_t i = 0; i < x.size(); ++i)
-      for (const double s : {-distance, distance})
+      for (const double s : {-std::max(distance, overlap.reach()), distance})
         hull.push_back(add_scaled(x[i], s, n[i]));
     return search.meet_hull(hull);
   }
 
   /// Distance of the point of a master edge that a place on the slave edge sees [m]. It is infinite
-  /// if the edges do not face each other, if the point is too far, or if the point is farther
-  /// behind than the length of the longer edge.
+  /// if the edges do not face each other, if the point is too far, or if it is behind and no
+  /// overlap that is closed.
   double MortarSegments::gap_of(const std::size_t face, const double at,
                                 const std::size_t other) const
   {
@@ -193,12 +190,18 @@ namespace taut
     const Ray r = ray(face, at);
     const Coordinates d = m.position - r.begin;
     const double gap = norm(d);
-    const bool hits = std::fabs(cross_z(d, r.direction)) <= hit * norm(r.tangent),
-               is_deep =
-                   dot(d, normal) < 0. && gap > std::max(chord(slave, face), chord(master, other));
-    return hits && !is_deep && gap <= distance && -dot(normal, m.normal()) >= facing
+    const bool hits = std::fabs(cross_z(d, r.direction)) <= hit * norm(r.tangent);
+    return hits && -dot(normal, m.normal()) >= facing &&
+                   (dot(d, normal) < 0. ? overlap.is_closed(r.begin, m.position) : gap <= distance)
                ? gap
                : std::numeric_limits<double>::infinity();
+  }
+
+  void MortarSegments::check_overlap(const std::size_t face, const double at) const
+  {
+    const FacePoint p = slave.at(face, {at, 0.});
+    overlap.check(p.position,
+                  [&p](const Coordinates &normal) { return -dot(p.normal(), normal) >= facing; });
   }
 
   std::vector<MortarSegment> MortarSegments::segments(const std::size_t face) const
@@ -242,7 +245,11 @@ namespace taut
         }
       if (std::isfinite(smallest))
         nearest.push_back({best, begin, end});
+      else
+        check_overlap(face, middle);
     }
+    if (ends.empty())
+      check_overlap(face, .5);
     return nearest;
   }
 } // namespace taut

@@ -3,6 +3,7 @@
 #define taut_mortar_segments_h
 
 #include "face_search.h"
+#include "overlap.h"
 #include "surface_geometry.h"
 
 #include <array>
@@ -21,7 +22,7 @@ namespace taut
    * Segments of two surfaces in the plane (segment-to-segment). Points of a slave edge see along
    * nodal normals, interpolated between the nodes. Nodal normals are averaged over the edges that
    * meet at a node, unless the edges make a corner. The nearest master edge on this line counts, if
-   * it faces the slave. It is in front, or behind by at most the length of the longer edge.
+   * it faces the slave. It is in front, or behind by an overlap that Overlap closes.
    */
   class MortarSegments
   {
@@ -29,7 +30,8 @@ namespace taut
     /// Keeps references. @p distance is how far a point sees [m].
     MortarSegments(const SurfaceGeometry &slave, const SurfaceGeometry &master, double distance);
 
-    /// Segments of a slave edge, ascending; they do not overlap.
+    /// Segments of a slave edge, ascending; they do not overlap. Throws UserError for bodies that
+    /// overlap too deeply.
     std::vector<MortarSegment> segments(std::size_t face) const;
 
     /// Place on the master edge that a point of a segment sees, on the reference edge.
@@ -46,11 +48,13 @@ namespace taut
     Ray ray(std::size_t face, double slave) const;
     double slave_of(std::size_t face, const Coordinates &x) const;
     std::vector<std::size_t> candidates(std::size_t face) const;
+    void check_overlap(std::size_t face, double slave) const;
     double gap_of(std::size_t face, double slave, std::size_t master) const;
 
     const SurfaceGeometry &slave, &master;
     double distance;
     FaceSearch search;
+    Overlap overlap;
     std::vector<std::array<Coordinates, 3>> normals; ///< of each slave edge at its nodes
   };
 } // namespace taut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/solid/solid_conditions.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace taut
 {
@@ -28,6 +30,55 @@ namespace taut
       throw UserError("symmetry needs faces across an axis; the normal of one is (" +
                       std::to_string(normals[0][0]) + ", " + std::to_string(normals[0][1]) +
                       (dim == 3 ? ", " + std::to_string(normals[0][dim - 1]) : "") + ")");
+    }
+
+    /// Difference of two displacements that is rounding, over them, and over the size of the body.
+    constexpr double same_motion = 1e-9, no_motion = 1e-12;
+
+    /// Times at which motions are compared: 0, and from the first to the last with this ratio [s].
+    constexpr double first_time = 1e-4, last_time = 100., time_ratio = 1.25;
+
+    /// Displacement of a DoF; none where a table of a condition ends.
+    std::optional<double> displacement(const BoundaryCondition &condition, const Coordinates &x,
+                                       const unsigned int axis, const double t)
+    {
+      try
+      {
+        return condition.value ? condition.value(x, t)[axis] : 0.;
+      }
+      catch (const UserError &)
+      {
+        return std::nullopt;
+      }
+    }
+
+    using Holder = std::pair<const BoundaryCondition *, dealii::types::boundary_id>;
+
+    /// Throws UserError if two conditions give a DoF different displacements.
+    template <int dim>
+    void compare(const SolidMesh<dim> &mesh, const dealii::types::global_dof_index dof,
+                 const Holder &a, const Holder &b)
+    {
+      if (a.first == b.first || !(a.first->value || b.first->value))
+        return;
+      const Coordinates x = coordinates<dim>(mesh.points()[dof]);
+      const unsigned int axis = mesh.component(dof);
+      const bool varies = a.first->varies || b.first->varies;
+      for (double t = 0.; t <= (varies ? last_time : 0.); t = t > 0. ? time_ratio * t : first_time)
+      {
+        const auto first = displacement(*a.first, x, axis, t),
+                   second = displacement(*b.first, x, axis, t);
+        if (first && second &&
+            std::fabs(*first - *second) >
+                same_motion * std::max(std::fabs(*first), std::fabs(*second)) +
+                    no_motion *
+                        norm(coordinates<dim>(mesh.points().back() - mesh.points().front())))
+          throw UserError(to_text("boundary ", b.second, " moves by ", *second, " m along ",
+                                  "xyz"[axis], " at (", x, "), t = ", t, " s, where boundary ",
+                                  a.second, " moves by ", *first, " m ('", a.first->origin,
+                                  "'). Let them move alike where they meet, or leave this "
+                                  "component of one of them empty"));
+      }
     }
   } // namespace
 
@@ -90,7 +141,7 @@ namespace taut
           if (held[c])
           {
             const BoundaryCondition &other =
-                *holders.try_emplace({id, c}, &condition).first->second;
+                *holders.of_boundary.try_emplace({id, c}, &condition).first->second;
             if (&other != &condition && (condition.value || other.value))
               throw UserError("boundary " + std::to_string(id) + " is held along " +
                               std::string(1, "xyz"[c]) + " by '" + other.origin +
@@ -99,10 +150,14 @@ namespace taut
         cell->face(f)->get_dof_indices(dofs);
         for (const auto dof : dofs)
         {
-          // Where two boundaries meet, the first written condition counts; so do hanging nodes.
-          if (!held[mesh.component(dof)] || all.is_constrained(dof))
+          if (!held[mesh.component(dof)])
+            continue;
+          if (const auto known = holders.of_dof.find(dof); known != holders.of_dof.end())
+            compare(mesh, dof, known->second, {&condition, id});
+          if (all.is_constrained(dof)) // by another condition, or as hanging
             continue;
           all.add_line(dof);
+          holders.of_dof[dof] = {&condition, id};
           if (condition.value)
             given.push_back({dof, &condition});
         }

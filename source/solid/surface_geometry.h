@@ -41,6 +41,10 @@ namespace taut
     Coordinates normal() const { return normalised(area); }
   };
 
+  /// Smallest cosine between the normal of a slave face and the opposite normal of a master face
+  /// for which the faces face each other.
+  constexpr double facing = .1;
+
   /// Faces of a contact surface as mappings from their reference faces, with outer sides.
   class SurfaceGeometry
   {

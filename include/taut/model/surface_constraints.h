@@ -5,6 +5,7 @@
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/scene/contact_surface.h>
+#include <taut/solid/contact_constraints.h>
 
 #include <vector>
 
@@ -28,6 +29,10 @@ namespace taut
   /// master, at any distance. None if the distance is given or the master is an obstacle.
   std::vector<SurfaceConstraint> left_out_constraints(const Scene &scene, std::size_t contact,
                                                       const ContactGeometry &geometry);
+
+  /// Places inside faces of the slave that the other side may enter between nodes.
+  std::vector<InnerPoint> contact_inner_points(const Scene &scene, std::size_t contact,
+                                               const ContactGeometry &geometry);
 
   /// The scene with slave and master exchanged for contacts with SurfaceContact::chooses_slave, if
   /// the slave then overhangs the master at fewer nodes. Throws EntryError, as contact_geometry()

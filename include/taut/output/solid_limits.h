@@ -25,6 +25,7 @@ namespace taut
    * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
    * - "nodes on faces": loaded nodes of the slave are at nodes of the master.
    * - "facets": loaded sides of degree 2 have no kinks of a few degrees.
+   * - "between nodes": the other side does not enter a face between its nodes.
    * - "search": nodes outside an automatic search distance stay open.
    */
   class SolidLimits
@@ -49,6 +50,8 @@ namespace taut
     {
       for (Worst &w : worst)
         archive &w.excess &w.value &w.limit &w.time &w.item &w.place;
+      for (Sliding &c : contacts)
+        archive &c.carries &c.entered.excess &c.entered.value &c.entered.time &c.entered.place;
     }
 
   private:
@@ -60,6 +63,7 @@ namespace taut
       nodes_on_faces,
       facets,
       search,
+      between_nodes,
       n_kinds
     };
 
@@ -80,7 +84,8 @@ namespace taut
       std::vector<Coordinates> places, chords; ///< [m]
     };
 
-    /// A contact: three forms for each constraint if it can slide, then one for each left-out node.
+    /// A contact: three forms for each constraint if it can slide, then one for each left-out node
+    /// and for each inner point.
     struct Sliding
     {
       std::string name, origin;
@@ -92,6 +97,9 @@ namespace taut
       std::vector<double> kinks;    ///< of each constraint [rad]
       std::vector<char> between;    ///< of each constraint: on a face of the master, not at a node
       std::vector<SurfaceConstraint> left_out;
+      std::vector<InnerPoint> inner;
+      bool carries = false; ///< at any time
+      Worst entered;        ///< depth at an inner point, its excess over the face
     };
 
     void add_body(const Scene &scene, const SceneBodies &structure, std::size_t body);
@@ -101,7 +109,8 @@ namespace taut
     void record_contacts(const StepView &step);
     void keep(Kind kind, double value, double limit, double time, std::size_t item,
               std::size_t place);
-    std::string text_of(Kind kind) const;
+    Worst worst_between_nodes() const;
+    std::string text_of(Kind kind, const Worst &w) const;
 
     std::vector<Turning> bodies;
     std::vector<Sliding> contacts;

@@ -27,8 +27,9 @@ namespace taut
    * All functions throw UserError, with the names of the surfaces, if a surface has no faces or a
    * wrong face (number of nodes, a node that does not exist, no area, no clear outer side). They
    * also throw it if dimensions do not fit, and if nothing faces the other side within the search
-   * distance [m]. Between two surfaces the search looks back, for penetration, by at most the size
-   * of the larger face: a surface may be the whole boundary of a body.
+   * distance [m]. Between two surfaces an overlap is closed up to half of the thickness of the
+   * thinner body, at any search distance; a deeper one is a UserError. A surface may be the whole
+   * boundary of a body. ContactSurface::other_faces tell the thickness where it is not.
    */
 
   /**
@@ -94,6 +95,31 @@ namespace taut
   std::vector<SurfaceConstraint>
   node_to_face_constraints(const ContactSurface &slave, const ContactSurface &master,
                            double search_distance = automatic_search_distance);
+
+  /// A place inside a face of the slave, between its nodes, where the other side may be while these
+  /// are open.
+  struct InnerPoint
+  {
+    SurfaceConstraint constraint;                             ///< of the place; without an area
+    double face = 0.;                                         ///< length of the face [m]
+    double element = std::numeric_limits<double>::infinity(); ///< of the master there [m]
+    double curvature = 0.; ///< of an obstacle against the face there [1/m]
+
+    /// Size of faces of the slave that would see the other side in @p depth [m]: a quarter of the
+    /// width of an obstacle there, or as the elements of the master.
+    double needed_face(double depth) const;
+  };
+
+  /// For each face where an obstacle stands out between the nodes, the place where it does so most.
+  /// It is found if it is as wide as an eighth of a face, in space a quarter. @p surface may be a
+  /// line.
+  std::vector<InnerPoint>
+  obstacle_inner_points(const ContactSurface &surface, const RigidObstacle &obstacle,
+                        double search_distance = std::numeric_limits<double>::infinity());
+
+  /// The nodes of the master that are on faces of the slave, and not at their nodes.
+  std::vector<InnerPoint> inner_points(const ContactSurface &slave, const ContactSurface &master,
+                                       double search_distance = automatic_search_distance);
 
   /// For each node of a surface in the plane or in space, the largest angle [rad] between normals
   /// of adjacent faces, at any node of the faces of this node. Angles of 0.5 rad and more are

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_overlap_h
+#define taut_overlap_h
+
+#include "surface_geometry.h"
+
+#include <functional>
+#include <memory>
+
+namespace taut
+{
+  /// How deep two bodies are in each other, from all faces of their boundaries.
+  class Overlap
+  {
+  public:
+    /// Keeps references.
+    Overlap(const SurfaceGeometry &slave, const SurfaceGeometry &master);
+    ~Overlap();
+
+    /// No overlap is closed over more than this: half of the diagonal of the smaller body [m].
+    double reach() const { return limit; }
+
+    /**
+     * Whether a contact closes the distance between a place of the slave and one of the master,
+     * each of which is behind the other: it is at most half of the thickness of the thinner body
+     * along the line through both. Otherwise the overlap is deeper, or there is none: the place is
+     * on the far side of one of the bodies.
+     */
+    bool is_closed(const Coordinates &slave, const Coordinates &master) const;
+
+    /// Throws the UserError for a place of the slave that is in the master too deeply, below a face
+    /// whose normal it @p faces.
+    void check(const Coordinates &slave,
+               const std::function<bool(const Coordinates &normal)> &faces) const;
+
+  private:
+    struct Boundaries;
+    const Boundaries &boundaries() const;
+
+    const SurfaceGeometry &slave, &master;
+    double limit;
+    mutable std::unique_ptr<const Boundaries> made; ///< at the first overlap
+  };
+} // namespace taut
+
+#endif
