@@ -62,9 +62,17 @@ namespace taut
       line.dim = 2;
     }
 
-    std::vector<SurfaceConstraint> constraints_of(const SurfaceContact &contact,
-                                                  ContactSurface slave, ContactSurface master)
+    WholeBoundaries whole_boundaries(const ContactGeometry &geometry)
     {
+      return {geometry.slave_body.points.empty() ? nullptr : &geometry.slave_body,
+              geometry.master_body.points.empty() ? nullptr : &geometry.master_body};
+    }
+
+    std::vector<SurfaceConstraint> constraints_of(const SurfaceContact &contact,
+                                                  const ContactGeometry &geometry)
+    {
+      ContactSurface slave = geometry.slave, master = geometry.master;
+      const WholeBoundaries bodies = whole_boundaries(geometry);
       const double reach = contact.search_distance;
       if (contact.obstacle.shape != ObstacleSetting::Shape::none)
       {
@@ -81,10 +89,10 @@ namespace taut
         throw EntryError(contact.origin + "/Method",
                          "mortar is for the plane; set Method = nodes to faces in space");
       if (slave.dim == 3)
-        return node_to_face_constraints(slave, master, distance);
+        return node_to_face_constraints(slave, master, distance, bodies);
       if (contact.method == SurfaceMethod::mortar)
-        return mortar_constraints(slave, master, slave.thickness, distance);
-      return node_to_segment_constraints(slave, master, slave.thickness, distance);
+        return mortar_constraints(slave, master, slave.thickness, distance, bodies);
+      return node_to_segment_constraints(slave, master, slave.thickness, distance, bodies);
     }
 
     /// Largest sine of the angle between two normals of one plane: the error of a gap over the
@@ -219,9 +227,14 @@ namespace taut
                          ContactGeometry geometry;
                          geometry.slave = surface_of(scene, contact.slave);
                          if (contact.obstacle.shape == ObstacleSetting::Shape::none)
+                         {
                            geometry.master = surface_of(scene, contact.master);
-                         geometry.constraints =
-                             constraints_of(contact, geometry.slave, geometry.master);
+                           if (!contact.slave.boundaries.empty())
+                             geometry.slave_body = surface_of(scene, {contact.slave.body, {}});
+                           if (!contact.master.boundaries.empty())
+                             geometry.master_body = surface_of(scene, {contact.master.body, {}});
+                         }
+                         geometry.constraints = constraints_of(contact, geometry);
                          condense(geometry.slave, geometry.constraints);
                          for (const Coordinates &x : geometry.slave.points)
                            geometry.size = std::max(geometry.size, norm(x));
@@ -248,7 +261,7 @@ namespace taut
     for (const ContactSurface::HangingNode &hanging : geometry.slave.hanging)
       is_known[hanging.node] = 1;
     std::vector<SurfaceConstraint> result;
-    for (SurfaceConstraint &far : constraints_of(contact, geometry.slave, geometry.master))
+    for (SurfaceConstraint &far : constraints_of(contact, geometry))
       if (!is_known[far.node] && far.gap > part_of_search * searched)
       {
         far.gap += contact.gap;
@@ -272,7 +285,8 @@ namespace taut
     {
       if (slave.dim == 1 || master.dim == 1)
         lay_into_plane(contact, slave, master);
-      result = inner_points(slave, master, reach > 0. ? reach : automatic_search_distance);
+      result = inner_points(slave, master, reach > 0. ? reach : automatic_search_distance,
+                            whole_boundaries(geometry));
     }
     for (InnerPoint &p : result)
       p.constraint.gap += contact.gap;

@@ -304,7 +304,7 @@ namespace taut
           << contact.inner[w.place].face << " m, where the " << (has_master ? "master" : "obstacle")
           << " enters by " << w.value << " m, t = " << w.time
           << " s: forces act at nodes of the slave. Take elements of at most "
-          << contact.inner[w.place].needed_face(w.value) << " m there"
+          << contact.inner[w.place].needed_face << " m there"
           << (has_master ? ", or exchange Slave and Master" : "");
     }
     else

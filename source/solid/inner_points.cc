@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace taut
 {
@@ -16,151 +14,71 @@ namespace taut
     /// makes room for it.
     constexpr double flat = 1e-4;
 
-    /// Smallest cosine of a face that faces an obstacle.
-    constexpr double facing_obstacle = .01;
+    /// Parts of a face along each direction, on a line and in space, between which heights are
+    /// taken: a bump of one part is seen.
+    constexpr unsigned int parts_of_line = 32, parts_of_face = 8;
 
-    /// Times that the distance of samples is halved to find the place that stands out most.
-    constexpr unsigned int halvings = 10;
-
-    /// How an obstacle stands out between the nodes of a face of a surface or line.
-    class FaceOfObstacle
-    {
-    public:
-      FaceOfObstacle(const ContactSurface &surface, const std::size_t face,
-                     const RigidObstacle &obstacle)
-          : surface(surface), nodes(surface.faces[face]), obstacle(obstacle),
-            form(face_form(std::max(surface.dim, 2u), surface.degree, nodes.size()))
-      {
-        for (const unsigned int node : nodes)
-          distances.push_back(obstacle.distance(surface.points[node]).value);
-      }
-
-      FaceShapes shapes(const ReferencePoint &r) const
-      {
-        return face_shapes(form, surface.degree, r);
-      }
-
-      Coordinates point(const ReferencePoint &r) const
-      {
-        const FaceShapes s = shapes(r);
-        Coordinates x;
-        for (unsigned int i = 0; i < s.n; ++i)
-          x = add_scaled(x, s.value[i], surface.points[nodes[i]]);
-        return x;
-      }
-
-      /// Height of the obstacle above the surface that nodes see [m].
-      double height(const ReferencePoint &r) const
-      {
-        const FaceShapes s = shapes(r);
-        double seen = 0.;
-        for (unsigned int i = 0; i < s.n; ++i)
-          seen += s.value[i] * distances[i];
-        return seen - obstacle.distance(point(r)).value;
-      }
-
-      /// Where the height is largest.
-      ReferencePoint highest() const
-      {
-        const bool is_line = form == FaceForm::line;
-        const unsigned int parts = is_line ? 8 : 4;
-        ReferencePoint best = centre(form);
-        double largest = height(best);
-        const auto consider = [&](const ReferencePoint &r)
-        {
-          if (r.x < 0. || r.y < 0. || r.x > 1. || r.y > 1. ||
-              (form == FaceForm::triangle && r.x + r.y > 1.))
-            return;
-          if (const double here = height(r); here > largest)
-          {
-            largest = here;
-            best = r;
-          }
-        };
-        for (unsigned int i = 0; i <= parts; ++i)
-          for (unsigned int j = 0; j <= (is_line ? 0 : parts); ++j)
-            consider({i / static_cast<double>(parts), j / static_cast<double>(parts)});
-        double step = .5 / parts;
-        for (unsigned int k = 0; k < halvings && largest > 0.; ++k, step *= .5)
-          for (const double by : {step, -step})
-          {
-            consider({best.x + by, best.y});
-            if (!is_line)
-              consider({best.x, best.y + by});
-          }
-        return best;
-      }
-
-      /// The larger curvature of the obstacle at a place along the two axes of the face [1/m].
-      double curvature(const ReferencePoint &r) const
-      {
-        constexpr double step = 1. / 32.;
-        const double here = height(r);
-        double largest = 0.;
-        for (const ReferencePoint &by : {ReferencePoint{step, 0.}, ReferencePoint{0., step}})
-        {
-          const ReferencePoint next{r.x + by.x, r.y + by.y}, last{r.x - by.x, r.y - by.y};
-          const double length = .5 * norm(point(next) - point(last));
-          if (length > 0.)
-            largest =
-                std::max(largest, (2. * here - height(next) - height(last)) / length / length);
-        }
-        return largest;
-      }
-
-      double length() const
-      {
-        Box box{surface.points[nodes[0]], surface.points[nodes[0]]};
-        for (const unsigned int node : nodes)
-          box.add(surface.points[node]);
-        return box.diagonal() / (form == FaceForm::line ? 1. : std::sqrt(2.));
-      }
-
-    private:
-      const ContactSurface &surface;
-      const std::vector<unsigned int> &nodes;
-      const RigidObstacle &obstacle;
-      const FaceForm form;
-      std::vector<double> distances; ///< of the nodes [m]
-    };
+    /// Elements in the width of a bump that see it: its middle and both flanks.
+    constexpr double elements_in_width = 4.;
   } // namespace
-
-  double InnerPoint::needed_face(const double depth) const
-  {
-    // The chord of an arc has the length 2 sqrt(2 depth / curvature).
-    const double quarter = curvature > 0. ? std::sqrt(.5 * depth / curvature) : element;
-    return std::min({.5 * face, element, quarter});
-  }
 
   std::vector<InnerPoint> obstacle_inner_points(const ContactSurface &surface,
                                                 const RigidObstacle &obstacle,
                                                 const double search_distance)
   {
-    std::optional<SurfaceGeometry> geometry;
-    if (surface.dim > 1)
-      geometry.emplace(surface);
     std::vector<InnerPoint> result;
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
     {
-      const FaceOfObstacle face(surface, f, obstacle);
-      const ReferencePoint place = face.highest();
-      if (!(face.height(place) > flat * face.length()))
-        continue;
-      const RigidObstacle::Distance distance = obstacle.distance(face.point(place));
-      if (std::fabs(distance.value) > search_distance ||
-          (geometry && !(-dot(geometry->at(f, place).normal(), distance.normal) > facing_obstacle)))
-        continue;
+      const std::vector<unsigned int> &nodes = surface.faces[f];
+      const FaceForm form = face_form(std::max(surface.dim, 2u), surface.degree, nodes.size());
+      const bool is_line = form == FaceForm::line;
+      std::vector<double> at_nodes;
+      Box box{surface.points[nodes[0]], surface.points[nodes[0]]};
+      for (const unsigned int node : nodes)
+      {
+        at_nodes.push_back(obstacle.distance(surface.points[node]).value);
+        box.add(surface.points[node]);
+      }
       InnerPoint p;
-      p.face = face.length();
-      p.curvature = face.curvature(place);
-      p.constraint.node = surface.faces[f][0];
-      p.constraint.point = face.point(place);
-      p.constraint.normal = scaled(-1., distance.normal);
-      p.constraint.gap = distance.value;
-      const FaceShapes shapes = face.shapes(place);
-      for (unsigned int i = 0; i < shapes.n; ++i)
-        p.constraint.slave.push_back(
-            {surface.faces[f][i], scaled(shapes.value[i], distance.normal)});
+      p.face = box.diagonal() / (is_line ? 1. : std::sqrt(2.));
+      // Heights of the obstacle above what nodes see.
+      std::vector<double> heights;
+      double largest = flat * p.face;
+      const unsigned int n = is_line ? parts_of_line : parts_of_face;
+      for (unsigned int i = 0; i <= n; ++i)
+        for (unsigned int j = 0; j <= (is_line ? 0 : form == FaceForm::triangle ? n - i : n); ++j)
+        {
+          const FaceShapes shapes = face_shapes(
+              form, surface.degree, {i / static_cast<double>(n), j / static_cast<double>(n)});
+          Coordinates x;
+          double seen = 0.;
+          for (unsigned int k = 0; k < shapes.n; ++k)
+          {
+            x = add_scaled(x, shapes.value[k], surface.points[nodes[k]]);
+            seen += shapes.value[k] * at_nodes[k];
+          }
+          const RigidObstacle::Distance distance = obstacle.distance(x);
+          heights.push_back(seen - distance.value);
+          if (heights.back() <= largest || std::fabs(distance.value) > search_distance ||
+              (surface.dim > 1 && dot(surface.outward[f], distance.normal) >= 0.))
+            continue;
+          largest = heights.back();
+          SurfaceConstraint &c = p.constraint;
+          c.node = nodes[0];
+          c.point = x;
+          c.normal = scaled(-1., distance.normal);
+          c.gap = distance.value;
+          c.slave.clear();
+          for (unsigned int k = 0; k < shapes.n; ++k)
+            c.slave.push_back({nodes[k], scaled(shapes.value[k], distance.normal)});
+        }
+      if (p.constraint.slave.empty())
+        continue;
+      // The width is that of half of the height.
+      const double part = std::count_if(heights.begin(), heights.end(),
+                                        [largest](const double h) { return h >= .5 * largest; }) /
+                          static_cast<double>(heights.size());
+      p.needed_face = p.face * (is_line ? part : std::sqrt(part)) / elements_in_width;
       result.push_back(std::move(p));
     }
     return result;

@@ -164,7 +164,8 @@ namespace taut
   std::vector<SurfaceConstraint> mortar_constraints(const ContactSurface &slave,
                                                     const ContactSurface &master,
                                                     const double thickness,
-                                                    const double wanted_distance)
+                                                    const double wanted_distance,
+                                                    const WholeBoundaries &boundaries)
   {
     const SurfaceGeometry slaves(slave), masters(master);
     check_dimensions(slave, master);
@@ -173,7 +174,7 @@ namespace taut
                       "': mortar constraints are for the plane; in space take node-to-face");
     check_thickness(thickness);
     const double distance = search_distance(slaves, masters, wanted_distance);
-    const MortarSegments finder(slaves, masters, distance);
+    const MortarSegments finder(slaves, masters, distance, boundaries);
     MortarRows rows(slave.points.size());
     for (std::size_t face = 0; face < slaves.n_faces(); ++face)
       add_cover(cover(slaves, masters, finder, face), slaves, masters, face, rows);

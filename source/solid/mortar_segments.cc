@@ -66,9 +66,9 @@ namespace taut
   } // namespace
 
   MortarSegments::MortarSegments(const SurfaceGeometry &slave, const SurfaceGeometry &master,
-                                 const double distance)
-      : slave(slave), master(master), distance(distance), search(master), overlap(slave, master),
-        normals(slave.n_faces())
+                                 const double distance, const WholeBoundaries &boundaries)
+      : slave(slave), master(master), distance(distance), search(master),
+        overlap(slave, master, boundaries), normals(slave.n_faces())
   {
     average_normals();
   }

@@ -28,7 +28,8 @@ namespace taut
   {
   public:
     /// Keeps references. @p distance is how far a point sees [m].
-    MortarSegments(const SurfaceGeometry &slave, const SurfaceGeometry &master, double distance);
+    MortarSegments(const SurfaceGeometry &slave, const SurfaceGeometry &master, double distance,
+                   const WholeBoundaries &boundaries);
 
     /// Segments of a slave edge, ascending; they do not overlap. Throws UserError for bodies that
     /// overlap too deeply.

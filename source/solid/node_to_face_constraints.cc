@@ -36,9 +36,10 @@ namespace taut
     class Projection
     {
     public:
-      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master, const double distance)
+      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master, const double distance,
+                 const WholeBoundaries &boundaries)
           : slave(slave), master(master), areas(slave), normals(master), points(master),
-            search(master), overlap(slave, master), distance(distance)
+            search(master), overlap(slave, master, boundaries), distance(distance)
       {
       }
 
@@ -187,7 +188,8 @@ namespace taut
     std::vector<SurfaceConstraint> constrain_nodes(const ContactSurface &slave,
                                                    const ContactSurface &master,
                                                    const unsigned int dim, const double thickness,
-                                                   const double wanted_distance)
+                                                   const double wanted_distance,
+                                                   const WholeBoundaries &boundaries)
     {
       const SurfaceGeometry slaves(slave), masters(master);
       check_dimensions(slave, master);
@@ -199,7 +201,7 @@ namespace taut
                                     "plane take mortar or node-to-segment"));
       check_thickness(thickness);
       const double distance = search_distance(slaves, masters, wanted_distance);
-      const Projection projection(slaves, masters, distance);
+      const Projection projection(slaves, masters, distance, boundaries);
       std::vector<SurfaceConstraint> constraints;
       for (unsigned int node = 0; node < slave.points.size(); ++node)
         if (std::optional<SurfaceConstraint> c = projection.constraint(node))
@@ -214,7 +216,7 @@ namespace taut
         is_constrained[c.node] = 1;
       for (SurfaceConstraint &c : constraints)
         projection.find_overhang(is_constrained, c);
-      if (constraints.empty() && !inner_points(slave, master, wanted_distance).empty())
+      if (constraints.empty() && !inner_points(slave, master, wanted_distance, boundaries).empty())
         throw UserError("contact surfaces '" + slave.name + "' and '" + master.name +
                         "': the second lies between nodes of the first, and no node of the first "
                         "is on it. Exchange Slave and Master, or make the faces of the first "
@@ -226,10 +228,12 @@ namespace taut
   } // namespace
 
   std::vector<InnerPoint> inner_points(const ContactSurface &slave, const ContactSurface &master,
-                                       const double wanted_distance)
+                                       const double wanted_distance,
+                                       const WholeBoundaries &boundaries)
   {
     const SurfaceGeometry slaves(slave), masters(master);
-    const Projection projection(masters, slaves, search_distance(slaves, masters, wanted_distance));
+    const Projection projection(masters, slaves, search_distance(slaves, masters, wanted_distance),
+                                {boundaries.master, boundaries.slave});
     std::vector<InnerPoint> result;
     for (unsigned int node = 0; node < master.points.size(); ++node)
     {
@@ -244,7 +248,7 @@ namespace taut
       for (const NodeWeight &w : c->slave)
         box.add(slaves.point(w.node));
       p.face = box.diagonal() / (c->slave.size() > 2 && slave.dim == 3 ? std::sqrt(2.) : 1.);
-      p.element = projection.element(node);
+      p.needed_face = std::min(projection.element(node), .5 * p.face);
       p.constraint = std::move(*c);
       result.push_back(std::move(p));
     }
@@ -254,15 +258,17 @@ namespace taut
   std::vector<SurfaceConstraint> node_to_segment_constraints(const ContactSurface &slave,
                                                              const ContactSurface &master,
                                                              const double thickness,
-                                                             const double search_distance)
+                                                             const double search_distance,
+                                                             const WholeBoundaries &boundaries)
   {
-    return constrain_nodes(slave, master, 2, thickness, search_distance);
+    return constrain_nodes(slave, master, 2, thickness, search_distance, boundaries);
   }
 
   std::vector<SurfaceConstraint> node_to_face_constraints(const ContactSurface &slave,
                                                           const ContactSurface &master,
-                                                          const double search_distance)
+                                                          const double search_distance,
+                                                          const WholeBoundaries &boundaries)
   {
-    return constrain_nodes(slave, master, 3, 1., search_distance);
+    return constrain_nodes(slave, master, 3, 1., search_distance, boundaries);
   }
 } // namespace taut

@@ -13,7 +13,7 @@ namespace taut
   namespace
   {
     /// Smallest cosine of a face that faces an obstacle.
-    constexpr double facing = .01;
+    constexpr double facing_obstacle = .01;
 
     [[noreturn]] void complain_about_reach(const ContactSurface &surface, const double reach,
                                            const double nearest)
@@ -87,7 +87,7 @@ namespace taut
       c.node = node;
       c.point = geometry.point(node);
       c.normal = scaled(-1., distances[node].normal);
-      if (!(areas.largest_cosine(node, c.normal) > facing))
+      if (!(areas.largest_cosine(node, c.normal) > facing_obstacle))
         continue;
       nearest = std::min(nearest, std::fabs(distances[node].value));
       if (std::fabs(distances[node].value) > search_distance)

@@ -8,47 +8,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace taut
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-
     /// Part of a line, or of a face, by which places on faces round.
     constexpr double rounding = 1e-6;
 
-    double half_diagonal(const ContactSurface &surface)
+    double half_diagonal(const SurfaceGeometry &geometry)
     {
-      const auto point = [&surface](const unsigned int node)
-      {
-        const Coordinates &x = surface.points[node];
-        return Coordinates{x.x, x.y, surface.dim == 2 ? 0. : x.z};
-      };
-      Box box{point(surface.faces.front().front()), point(surface.faces.front().front())};
-      for (const auto *const faces : {&surface.faces, &surface.other_faces})
-        for (const std::vector<unsigned int> &face : *faces)
-          for (const unsigned int node : face)
-            box.add(point(node));
+      Box box{geometry.point(0), geometry.point(0)};
+      for (unsigned int node = 0; node < geometry.surface().points.size(); ++node)
+        box.add(geometry.point(node));
       return .5 * box.diagonal();
-    }
-
-    ContactSurface all_faces(ContactSurface surface)
-    {
-      const auto append = [](auto &to, const auto &from)
-      { to.insert(to.end(), from.begin(), from.end()); };
-      append(surface.faces, surface.other_faces);
-      append(surface.outward, surface.other_outward);
-      return surface;
     }
 
     /// All of the boundary of a body.
     struct Boundary
     {
-      explicit Boundary(const ContactSurface &part)
-          : surface(all_faces(part)), geometry(surface), search(geometry)
+      explicit Boundary(const ContactSurface &surface)
+          : surface(surface), geometry(surface), search(geometry)
       {
       }
 
@@ -56,48 +37,46 @@ namespace taut
       /// is beyond two lengths.
       double exit(const Coordinates &x, const Coordinates &d) const
       {
-        double nearest = infinity;
-        search.visit_nearest(add_scaled(x, 1., d),
-                             [&](const std::size_t face, const double distance)
-                             {
-                               if (distance > (1. + rounding) * norm(d))
-                                 return false;
-                               if (dot(surface.outward[face], d) > 0.)
-                                 nearest = std::min(nearest, meet(face, x, d));
-                               return true;
-                             });
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto visit = [&](const std::size_t face, const double distance)
+        {
+          if (dot(surface.outward[face], d) > 0.)
+            nearest = std::min(nearest, meet(face, x, d));
+          return distance <= (1. + rounding) * norm(d);
+        };
+        search.visit_nearest(add_scaled(x, 1., d), visit);
         return nearest;
       }
 
       /// Where a line meets a face, taken as triangles between its corners, or as a straight edge.
       double meet(const std::size_t face, const Coordinates &x, const Coordinates &d) const
       {
-        std::vector<Coordinates> corners;
-        for (const FaceEdge &edge : face_edges(geometry.form(face), surface.degree))
-          corners.push_back(geometry.point(geometry.nodes(face)[edge.first]));
-        if (corners.empty()) // an edge in the plane, as a triangle across it
-          corners = {geometry.point(geometry.nodes(face)[0]),
-                     geometry.point(geometry.nodes(face)[1]),
-                     {geometry.point(geometry.nodes(face)[0]).x,
-                      geometry.point(geometry.nodes(face)[0]).y, 1.}};
-        double nearest = infinity;
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        double nearest = std::numeric_limits<double>::infinity();
+        const std::vector<unsigned int> &nodes = geometry.nodes(face);
+        const Coordinates a = geometry.point(nodes[0]);
+        const auto meet_triangle = [&](const Coordinates &b, const Coordinates &c)
         {
-          const Coordinates b = corners[k] - corners[0], c = corners[k + 1] - corners[0],
-                            n = cross(b, c);
-          const double across = dot(d, n);
+          const Coordinates n = cross(b, c);
+          const double across = dot(d, n), square = dot(n, n);
           if (!(std::fabs(across) > rounding * norm(d) * norm(n)))
-            continue;
-          const double at = dot(corners[0] - x, n) / across;
-          const Coordinates q = add_scaled(x - corners[0], at, d);
-          const double u = dot(cross(q, c), n) / dot(n, n), v = dot(cross(b, q), n) / dot(n, n);
+            return;
+          const double at = dot(a - x, n) / across;
+          const Coordinates q = add_scaled(x - a, at, d);
+          const double u = dot(cross(q, c), n) / square, v = dot(cross(b, q), n) / square;
           if (at > rounding && std::min(u, v) >= -rounding && u + v <= 1. + rounding)
             nearest = std::min(nearest, at);
-        }
+        };
+        if (surface.dim == 2) // a triangle across the plane
+          meet_triangle(geometry.point(nodes[1]) - a, {0., 0., 1.});
+        else
+          for (const FaceEdge &edge : face_edges(geometry.form(face), surface.degree))
+            if (edge.first != 0 && edge.second != 0)
+              meet_triangle(geometry.point(nodes[edge.first]) - a,
+                            geometry.point(nodes[edge.second]) - a);
         return nearest;
       }
 
-      const ContactSurface surface;
+      const ContactSurface &surface;
       const SurfaceGeometry geometry;
       const FaceSearch search;
     };
@@ -105,26 +84,28 @@ namespace taut
 
   struct Overlap::Boundaries
   {
-    Boundaries(const SurfaceGeometry &s, const SurfaceGeometry &m)
-        : slave(s.surface()), master(m.surface()), points(m), search(m)
+    Boundaries(const SurfaceGeometry &s, const SurfaceGeometry &m, const WholeBoundaries &whole)
+        : slave(whole.slave ? *whole.slave : s.surface()),
+          master(whole.master ? *whole.master : m.surface()), points(m), search(m)
     {
     }
 
-    /// Where the line through two places leaves the slave, and the master, each from its own place:
-    /// the smaller and the larger one, over the distance of the places.
+    /// Where the line through two places leaves the slave and the master, each from its own place:
+    /// the smaller and the larger distance, over that of the places.
     std::pair<double, double> exits(const Coordinates &x, const Coordinates &p) const
     {
       return std::minmax({slave.exit(x, p - x), master.exit(p, x - p)});
     }
 
     const Boundary slave, master;
-    const ClosestPoints points; ///< of the master's side of the contact
+    const ClosestPoints points; ///< of the master's side of the contact, as the search
     const FaceSearch search;
   };
 
-  Overlap::Overlap(const SurfaceGeometry &slave, const SurfaceGeometry &master)
-      : slave(slave), master(master),
-        limit(std::min(half_diagonal(slave.surface()), half_diagonal(master.surface())))
+  Overlap::Overlap(const SurfaceGeometry &slave, const SurfaceGeometry &master,
+                   const WholeBoundaries &boundaries)
+      : slave(slave), master(master), whole(boundaries),
+        limit(std::min(half_diagonal(slave), half_diagonal(master)))
   {
   }
 
@@ -133,7 +114,7 @@ namespace taut
   const Overlap::Boundaries &Overlap::boundaries() const
   {
     if (!made)
-      made = std::make_unique<const Boundaries>(slave, master);
+      made = std::make_unique<const Boundaries>(slave, master, whole);
     return *made;
   }
 
@@ -149,30 +130,28 @@ namespace taut
   {
     if (slave.surface().name == master.surface().name)
       return; // a body does not overlap itself
-    std::optional<ClosestPoint> nearest;
-    boundaries().search.visit_nearest(x,
-                                      [&](const std::size_t face, const double distance)
-                                      {
-                                        if (nearest && distance > nearest->distance)
-                                          return false;
-                                        const ClosestPoint found =
-                                            boundaries().points.find(face, x);
-                                        if (!nearest || found.distance < nearest->distance)
-                                          nearest = found;
-                                        return true;
-                                      });
-    const FacePoint p = master.at(nearest->face, nearest->reference);
-    const Coordinates d = p.position - x;
-    if (nearest->on_open_border || dot(d, p.area) <= 0. || !faces(p.normal()) ||
+    const Boundaries &all = boundaries();
+    ClosestPoint nearest;
+    nearest.distance = std::numeric_limits<double>::infinity();
+    const auto visit = [&](const std::size_t face, const double distance)
+    {
+      if (const ClosestPoint found = all.points.find(face, x); found.distance < nearest.distance)
+        nearest = found;
+      return distance <= nearest.distance;
+    };
+    all.search.visit_nearest(x, visit);
+    const FacePoint p = master.at(nearest.face, nearest.reference);
+    if (nearest.on_open_border || dot(p.position - x, p.area) <= 0. || !faces(p.normal()) ||
         is_closed(x, p.position))
       return;
-    const auto [first, last] = boundaries().exits(x, p.position);
-    if (last > 1.)
+    const auto [thinner, thicker] = all.exits(x, p.position);
+    if (thicker > 1.)
       throw UserError(to_text("contact surfaces '", slave.surface().name, "' and '",
-                              master.surface().name, "': they overlap by ", norm(d), " m at (", x,
-                              "), by more than half of the thickness of the thinner body there, ",
-                              first * norm(d),
-                              " m. Move the bodies apart, or name the sides that "
-                              "face each other"));
+                              master.surface().name, "': they overlap by ", nearest.distance,
+                              " m at (", x,
+                              "), by more than half of the thickness of the thinner "
+                              "body there, ",
+                              thinner * nearest.distance,
+                              " m. Move the bodies apart, or name the sides that face each other"));
   }
 } // namespace taut

@@ -3,6 +3,7 @@
 #define taut_overlap_h
 
 #include "surface_geometry.h"
+#include <taut/solid/contact_constraints.h>
 
 #include <functional>
 #include <memory>
@@ -14,18 +15,16 @@ namespace taut
   {
   public:
     /// Keeps references.
-    Overlap(const SurfaceGeometry &slave, const SurfaceGeometry &master);
+    Overlap(const SurfaceGeometry &slave, const SurfaceGeometry &master,
+            const WholeBoundaries &boundaries);
     ~Overlap();
 
     /// No overlap is closed over more than this: half of the diagonal of the smaller body [m].
     double reach() const { return limit; }
 
-    /**
-     * Whether a contact closes the distance between a place of the slave and one of the master,
-     * each of which is behind the other: it is at most half of the thickness of the thinner body
-     * along the line through both. Otherwise the overlap is deeper, or there is none: the place is
-     * on the far side of one of the bodies.
-     */
+    /// Whether a contact closes the distance between places of both sides, each behind the other:
+    /// it is at most half of the thickness of the thinner body on the line through both. Otherwise
+    /// the overlap is deeper, or there is none: one place is on the far side of its body.
     bool is_closed(const Coordinates &slave, const Coordinates &master) const;
 
     /// Throws the UserError for a place of the slave that is in the master too deeply, below a face
@@ -38,6 +37,7 @@ namespace taut
     const Boundaries &boundaries() const;
 
     const SurfaceGeometry &slave, &master;
+    const WholeBoundaries whole;
     double limit;
     mutable std::unique_ptr<const Boundaries> made; ///< at the first overlap
   };

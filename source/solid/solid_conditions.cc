@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace taut
 {
@@ -38,23 +37,10 @@ namespace taut
     /// Times at which motions are compared: 0, and from the first to the last with this ratio [s].
     constexpr double first_time = 1e-4, last_time = 100., time_ratio = 1.25;
 
-    /// Displacement of a DoF; none where a table of a condition ends.
-    std::optional<double> displacement(const BoundaryCondition &condition, const Coordinates &x,
-                                       const unsigned int axis, const double t)
-    {
-      try
-      {
-        return condition.value ? condition.value(x, t)[axis] : 0.;
-      }
-      catch (const UserError &)
-      {
-        return std::nullopt;
-      }
-    }
-
     using Holder = std::pair<const BoundaryCondition *, dealii::types::boundary_id>;
 
-    /// Throws UserError if two conditions give a DoF different displacements.
+    /// Throws UserError if two conditions give a DoF different displacements. Times at which a
+    /// table has no row are left out.
     template <int dim>
     void compare(const SolidMesh<dim> &mesh, const dealii::types::global_dof_index dof,
                  const Holder &a, const Holder &b)
@@ -62,23 +48,63 @@ namespace taut
       if (a.first == b.first || !(a.first->value || b.first->value))
         return;
       const Coordinates x = coordinates<dim>(mesh.points()[dof]);
-      const unsigned int axis = mesh.component(dof);
+      const double rounding =
+          no_motion * norm(coordinates<dim>(mesh.points().back() - mesh.points().front()));
       const bool varies = a.first->varies || b.first->varies;
-      for (double t = 0.; t <= (varies ? last_time : 0.); t = t > 0. ? time_ratio * t : first_time)
+      const auto displacement = [&](const BoundaryCondition &condition, const double t)
+      { return condition.value ? condition.value(x, t)[mesh.component(dof)] : 0.; };
+      for (double t = 0.; t <= (varies ? last_time : 0.); t = std::max(first_time, time_ratio * t))
       {
-        const auto first = displacement(*a.first, x, axis, t),
-                   second = displacement(*b.first, x, axis, t);
-        if (first && second &&
-            std::fabs(*first - *second) >
-                same_motion * std::max(std::fabs(*first), std::fabs(*second)) +
-                    no_motion *
-                        norm(coordinates<dim>(mesh.points().back() - mesh.points().front())))
-          throw UserError(to_text("boundary ", b.second, " moves by ", *second, " m along ",
-                                  "xyz"[axis], " at (", x, "), t = ", t, " s, where boundary ",
-                                  a.second, " moves by ", *first, " m ('", a.first->origin,
-                                  "'). Let them move alike where they meet, or leave this "
-                                  "component of one of them empty"));
+        double first = 0., second = 0.;
+        try
+        {
+          first = displacement(*a.first, t);
+          second = displacement(*b.first, t);
+        }
+        catch (const UserError &)
+        {
+          continue;
+        }
+        if (std::fabs(first - second) >
+            rounding + same_motion * std::max(std::fabs(first), std::fabs(second)))
+          throw UserError(to_text("at (", x, ") boundary ", b.second, " moves by ", second,
+                                  " m along ", "xyz"[mesh.component(dof)], ", and boundary ",
+                                  a.second, " by ", first, " m ('", a.first->origin, "', t = ", t,
+                                  " s). Let them move alike where they meet, or "
+                                  "leave this component of one of them empty"));
       }
+    }
+
+    /// Calls @p visit with the DoFs that a condition holds, and the boundary of each.
+    template <int dim, typename Visit>
+    void visit_held(const SolidMesh<dim> &mesh, const BoundaryCondition &condition,
+                    const Visit &visit)
+    {
+      using Kind = BoundaryCondition::Kind;
+      if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
+        return;
+      const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+      dealii::FEFaceValues<dim> values(mesh.mapping(), element, mesh.face_quadrature(2),
+                                       dealii::update_normal_vectors);
+      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
+      for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+        {
+          if (!cell->face(f)->at_boundary() ||
+              condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
+            continue;
+          std::array<bool, 3> held = condition.held;
+          if (condition.kind == Kind::symmetry)
+          {
+            values.reinit(cell, f);
+            held = {false, false, false};
+            held[axis_of<dim>(values.get_normal_vectors())] = true;
+          }
+          cell->face(f)->get_dof_indices(dofs);
+          for (const auto dof : dofs)
+            if (held[mesh.component(dof)])
+              visit(dof, cell->face(f)->boundary_id());
+        }
     }
   } // namespace
 
@@ -96,6 +122,7 @@ namespace taut
     }
     const auto ids = mesh.boundary_ids();
     Holders holders;
+    std::map<dealii::types::global_dof_index, Holder> of_dof;
     for (const BoundaryCondition &condition : conditions)
     {
       try
@@ -104,6 +131,12 @@ namespace taut
           if (ids.count(id) == 0)
             throw UserError(mesh.no_boundary(id));
         constrain(mesh, condition, holders);
+        visit_held(mesh, condition,
+                   [&](const auto dof, const auto id)
+                   {
+                     const Holder holder{&condition, id};
+                     compare(mesh, dof, of_dof.try_emplace(dof, holder).first->second, holder);
+                   });
       }
       catch (const UserError &e)
       {
@@ -116,52 +149,24 @@ namespace taut
   void SolidConditions<dim>::constrain(const SolidMesh<dim> &mesh,
                                        const BoundaryCondition &condition, Holders &holders)
   {
-    using Kind = BoundaryCondition::Kind;
-    if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
-      return;
-    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
-    dealii::FEFaceValues<dim> values(mesh.mapping(), element, mesh.face_quadrature(2),
-                                     dealii::update_normal_vectors);
-    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-      {
-        if (!cell->face(f)->at_boundary() ||
-            condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
-          continue;
-        std::array<bool, 3> held = condition.held;
-        if (condition.kind == Kind::symmetry)
+    visit_held(
+        mesh, condition,
+        [&](const auto dof, const auto id)
         {
-          values.reinit(cell, f);
-          held = {false, false, false};
-          held[axis_of<dim>(values.get_normal_vectors())] = true;
-        }
-        const auto id = cell->face(f)->boundary_id();
-        for (unsigned int c = 0; c < dim; ++c)
-          if (held[c])
-          {
-            const BoundaryCondition &other =
-                *holders.of_boundary.try_emplace({id, c}, &condition).first->second;
-            if (&other != &condition && (condition.value || other.value))
-              throw UserError("boundary " + std::to_string(id) + " is held along " +
-                              std::string(1, "xyz"[c]) + " by '" + other.origin +
-                              "' as well; leave it to one of them");
-          }
-        cell->face(f)->get_dof_indices(dofs);
-        for (const auto dof : dofs)
-        {
-          if (!held[mesh.component(dof)])
-            continue;
-          if (const auto known = holders.of_dof.find(dof); known != holders.of_dof.end())
-            compare(mesh, dof, known->second, {&condition, id});
-          if (all.is_constrained(dof)) // by another condition, or as hanging
-            continue;
+          const unsigned int c = mesh.component(dof);
+          const BoundaryCondition &other = *holders.try_emplace({id, c}, &condition).first->second;
+          if (&other != &condition && (condition.value || other.value))
+            throw UserError("boundary " + std::to_string(id) + " is held along " +
+                            std::string(1, "xyz"[c]) + " by '" + other.origin +
+                            "' as well; leave it to one of them");
+          // Where two boundaries meet, the first written condition counts; so do hanging
+          // nodes.
+          if (all.is_constrained(dof))
+            return;
           all.add_line(dof);
-          holders.of_dof[dof] = {&condition, id};
           if (condition.value)
             given.push_back({dof, &condition});
-        }
-      }
+        });
   }
 
   template class SolidConditions<2>;

@@ -155,13 +155,11 @@ namespace taut
           }
           face[order[i]] = known->second;
         }
-        const bool is_other =
-            !boundaries.empty() && boundaries.count(cell->face(f)->boundary_id()) == 0;
-        ContactSurface &s = result.surface;
-        (is_other ? s.other_faces : s.faces).push_back(std::move(face));
+        if (!boundaries.empty() && boundaries.count(cell->face(f)->boundary_id()) == 0)
+          continue;
+        result.surface.faces.push_back(std::move(face));
         values.reinit(cell, f);
-        (is_other ? s.other_outward : s.outward)
-            .push_back(coordinates<dim>(values.normal_vector(0)));
+        result.surface.outward.push_back(coordinates<dim>(values.normal_vector(0)));
       }
     dealii::AffineConstraints<double> constraints;
     dealii::DoFTools::make_hanging_node_constraints(handler, constraints);

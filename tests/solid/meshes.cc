@@ -118,7 +118,7 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
 {
   const std::string file = "File =", good = file + mesh_file("quadrilaterals.msh");
   expect_error(scene(one_material, file + "/nowhere/plate.msh"),
-               {"Body plate/Mesh/File", "cannot read '/nowhere/plate.msh'"});
+               {"Body plate/Mesh/File", "cannot read the file '/nowhere/plate.msh'"});
   expect_error(scene(one_material + "; Dimension = 3", good),
                {"Body plate/Mesh/File", "no mesh of dimension 3"});
   expect_error(scene("Young's modulus = 1e9; Fixed boundaries = 21", good),

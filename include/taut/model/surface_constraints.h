@@ -15,7 +15,8 @@ namespace taut
   struct ContactGeometry
   {
     ContactSurface slave;
-    ContactSurface master; ///< without points against an obstacle
+    ContactSurface master;                  ///< without points against an obstacle
+    ContactSurface slave_body, master_body; ///< whole boundaries; without points: as the surfaces
     std::vector<SurfaceConstraint> constraints;
     double size = 0.; ///< largest distance of a node of the slave body from the origin [m]
   };

@@ -48,11 +48,6 @@ namespace taut
     /// only tells the outer side; normals are those of the geometry. Obstacles do not read it for
     /// lines.
     std::vector<Coordinates> outward;
-
-    /// The other faces of the boundary of the body, and their outward directions. They take no part
-    /// in contact, and tell how thick the body is where it overlaps another one.
-    std::vector<std::vector<unsigned int>> other_faces;
-    std::vector<Coordinates> other_outward;
   };
 
   /// A term of a SurfaceConstraint: the displacement of a node times a vector.

@@ -29,8 +29,14 @@ namespace taut
    * also throw it if dimensions do not fit, and if nothing faces the other side within the search
    * distance [m]. Between two surfaces an overlap is closed up to half of the thickness of the
    * thinner body, at any search distance; a deeper one is a UserError. A surface may be the whole
-   * boundary of a body. ContactSurface::other_faces tell the thickness where it is not.
+   * boundary of a body. Where it is not, WholeBoundaries tell the thickness.
    */
+
+  /// The boundaries of two bodies, which must outlive a call; none: the surfaces are all of them.
+  struct WholeBoundaries
+  {
+    const ContactSurface *slave = nullptr, *master = nullptr;
+  };
 
   /**
    * Constraints between nodes of a surface and a rigid obstacle, in the plane or in space. D is the
@@ -77,7 +83,8 @@ namespace taut
    */
   std::vector<SurfaceConstraint>
   mortar_constraints(const ContactSurface &slave, const ContactSurface &master,
-                     double thickness = 1., double search_distance = automatic_search_distance);
+                     double thickness = 1., double search_distance = automatic_search_distance,
+                     const WholeBoundaries &boundaries = {});
 
   /**
    * Constraints between nodes of the slave and their closest points on the master, in the plane.
@@ -85,41 +92,35 @@ namespace taut
    * which mortar_constraints() passes: on non-matching meshes nodal loads of a uniform pressure are
    * wrong by as much as the load of an edge, however fine the meshes are.
    */
-  std::vector<SurfaceConstraint>
-  node_to_segment_constraints(const ContactSurface &slave, const ContactSurface &master,
-                              double thickness = 1.,
-                              double search_distance = automatic_search_distance);
+  std::vector<SurfaceConstraint> node_to_segment_constraints(
+      const ContactSurface &slave, const ContactSurface &master, double thickness = 1.,
+      double search_distance = automatic_search_distance, const WholeBoundaries &boundaries = {});
 
   /// Constraints between nodes of the slave and their closest points on the master, in space, with
   /// areas as in obstacle_constraints(). The method fails the patch test, too.
   std::vector<SurfaceConstraint>
   node_to_face_constraints(const ContactSurface &slave, const ContactSurface &master,
-                           double search_distance = automatic_search_distance);
+                           double search_distance = automatic_search_distance,
+                           const WholeBoundaries &boundaries = {});
 
-  /// A place inside a face of the slave, between its nodes, where the other side may be while these
-  /// are open.
+  /// A place inside a face of the slave that the other side may enter between its nodes.
   struct InnerPoint
   {
-    SurfaceConstraint constraint;                             ///< of the place; without an area
-    double face = 0.;                                         ///< length of the face [m]
-    double element = std::numeric_limits<double>::infinity(); ///< of the master there [m]
-    double curvature = 0.; ///< of an obstacle against the face there [1/m]
-
-    /// Size of faces of the slave that would see the other side in @p depth [m]: a quarter of the
-    /// width of an obstacle there, or as the elements of the master.
-    double needed_face(double depth) const;
+    SurfaceConstraint constraint; ///< of the place; without an area
+    double face = 0.;             ///< length of the face [m]
+    double needed_face = 0.;      ///< at most, for the nodes to see the other side [m]
   };
 
-  /// For each face where an obstacle stands out between the nodes, the place where it does so most.
-  /// It is found if it is as wide as an eighth of a face, in space a quarter. @p surface may be a
-  /// line.
+  /// For each face of a surface or line where an obstacle stands out between the nodes, the place
+  /// where it does so most, to 1/32 of the face, in space 1/8.
   std::vector<InnerPoint>
   obstacle_inner_points(const ContactSurface &surface, const RigidObstacle &obstacle,
                         double search_distance = std::numeric_limits<double>::infinity());
 
   /// The nodes of the master that are on faces of the slave, and not at their nodes.
   std::vector<InnerPoint> inner_points(const ContactSurface &slave, const ContactSurface &master,
-                                       double search_distance = automatic_search_distance);
+                                       double search_distance = automatic_search_distance,
+                                       const WholeBoundaries &boundaries = {});
 
   /// For each node of a surface in the plane or in space, the largest angle [rad] between normals
   /// of adjacent faces, at any node of the faces of this node. Angles of 0.5 rad and more are

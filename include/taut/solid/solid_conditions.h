@@ -44,8 +44,8 @@ namespace taut
   {
   public:
     /// @p conditions are kept by reference. Throws EntryError about a condition on a boundary that
-    /// the mesh does not have, about two conditions for the displacement of one boundary along one
-    /// axis, and about two boundaries that move differently where they meet.
+    /// the mesh does not have, and about two conditions for the displacement of one boundary along
+    /// one axis.
     SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
 
     /// Homogeneous constraints (see prescribed() for values that are not zero). They are not
@@ -61,16 +61,9 @@ namespace taut
     const std::vector<Prescribed> &prescribed() const { return given; }
 
   private:
-    /// The condition that holds a boundary along an axis, and the one that holds a DoF, with its
-    /// boundary.
-    struct Holders
-    {
-      std::map<std::pair<dealii::types::boundary_id, unsigned int>, const BoundaryCondition *>
-          of_boundary;
-      std::map<dealii::types::global_dof_index,
-               std::pair<const BoundaryCondition *, dealii::types::boundary_id>>
-          of_dof;
-    };
+    /// The condition that holds a boundary along an axis.
+    using Holders =
+        std::map<std::pair<dealii::types::boundary_id, unsigned int>, const BoundaryCondition *>;
 
     void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition,
                    Holders &holders);

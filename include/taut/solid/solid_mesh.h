@@ -61,7 +61,7 @@ namespace taut
     unsigned int component(dealii::types::global_dof_index dof) const { return components[dof]; }
 
     /// The contact surface of the mesh, and the DoFs of its nodes. It has the nodes of the whole
-    /// boundary, and as its faces those of the parts with these ids, or all without ids. Throws
+    /// boundary, and the faces of the parts with these ids, or all faces without ids. Throws
     /// UserError for an id that the mesh does not have.
     struct Surface
     {
