@@ -23,10 +23,10 @@ namespace taut
     /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
     constexpr double small_kink = .03;
 
-    /// Depth between nodes of a face, over its length, above which there is a warning. At a contact
-    /// that carries it is the strain that linear elasticity leaves to solve; at one that never
-    /// does, there should have been a force.
-    constexpr double small_depth = .01, no_depth = 1e-4;
+    /// Depth between nodes above which there is a warning: over the face, at a contact that never
+    /// carries, where there should have been a force; over how far the bodies came into each other,
+    /// at one that carries: with two elements in half of a contact of Hertz it is 0.06.
+    constexpr double no_depth = 1e-4, small_depth = .1;
 
     /// Part of the weights of a master by which a point is beside its nodes.
     constexpr double at_node = 1e-6;
@@ -160,8 +160,14 @@ namespace taut
     for (const SurfaceConstraint &c : contact.left_out)
       add(c, nullptr);
     contact.inner = contact_inner_points(scene, number, contact.geometry);
+    contact.first_gap = std::numeric_limits<double>::infinity();
+    for (const SurfaceConstraint &c : contact.geometry.constraints)
+      contact.first_gap = std::min(contact.first_gap, c.gap);
     for (const InnerPoint &p : contact.inner)
+    {
+      contact.first_gap = std::min(contact.first_gap, p.constraint.gap);
       add(p.constraint, nullptr);
+    }
     contacts.push_back(std::move(contact));
   }
 
@@ -240,8 +246,11 @@ namespace taut
       {
         const double depth = -contact.inner[i].constraint.gap - motion[i],
                      excess = depth / contact.inner[i].face;
+        const double limit =
+            std::max(contact.entered.limit, small_depth * (-motion[i] - contact.first_gap));
         if (excess > contact.entered.excess)
           contact.entered = {excess, depth, 0., time, k, i};
+        contact.entered.limit = limit;
       }
     }
   }
@@ -322,13 +331,14 @@ namespace taut
     Worst result;
     for (const Sliding &contact : contacts)
     {
-      const double limit = contact.carries ? small_depth : no_depth;
-      if (contact.entered.excess / limit > result.excess)
-      {
-        result = contact.entered;
-        result.limit = limit * contact.inner[result.place].face;
-        result.excess /= limit;
-      }
+      Worst one = contact.entered;
+      if (!(one.excess > 0.))
+        continue;
+      const double smallest = no_depth * contact.inner[one.place].face;
+      one.limit = contact.carries ? std::max(one.limit, smallest) : smallest;
+      one.excess = one.value / one.limit;
+      if (one.excess > result.excess)
+        result = one;
     }
     return result;
   }

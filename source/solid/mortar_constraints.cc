@@ -180,6 +180,8 @@ namespace taut
       add_cover(cover(slaves, masters, finder, face), slaves, masters, face, rows);
     rows.merge_slivers();
     std::vector<SurfaceConstraint> constraints = rows.constraints(thickness);
+    for (std::size_t face = 0; constraints.empty() && face < slaves.n_faces(); ++face)
+      finder.check_overlap(face, .5, true);
     if (constraints.empty())
       complain_about_search(slaves, masters, distance);
     return constraints;

@@ -197,11 +197,13 @@ namespace taut
                : std::numeric_limits<double>::infinity();
   }
 
-  void MortarSegments::check_overlap(const std::size_t face, const double at) const
+  void MortarSegments::check_overlap(const std::size_t face, const double at,
+                                     const bool no_contact) const
   {
     const FacePoint p = slave.at(face, {at, 0.});
-    overlap.check(p.position,
-                  [&p](const Coordinates &normal) { return -dot(p.normal(), normal) >= facing; });
+    overlap.check(
+        p.position, [&p](const Coordinates &normal) { return -dot(p.normal(), normal) >= facing; },
+        no_contact);
   }
 
   std::vector<MortarSegment> MortarSegments::segments(const std::size_t face) const

@@ -35,6 +35,9 @@ namespace taut
     /// overlap too deeply.
     std::vector<MortarSegment> segments(std::size_t face) const;
 
+    /// Throws the UserError for a place of a slave edge that is in the master too deeply.
+    void check_overlap(std::size_t face, double slave, bool no_contact = false) const;
+
     /// Place on the master edge that a point of a segment sees, on the reference edge.
     double project(std::size_t face, double slave, std::size_t master) const;
 
@@ -49,7 +52,6 @@ namespace taut
     Ray ray(std::size_t face, double slave) const;
     double slave_of(std::size_t face, const Coordinates &x) const;
     std::vector<std::size_t> candidates(std::size_t face) const;
-    void check_overlap(std::size_t face, double slave) const;
     double gap_of(std::size_t face, double slave, std::size_t master) const;
 
     const SurfaceGeometry &slave, &master;

@@ -84,11 +84,12 @@ namespace taut
       }
 
       /// Throws UserError for a node without a constraint that is in the master too deeply.
-      void check_overlap(const unsigned int node) const
+      void check_overlap(const unsigned int node, const bool no_contact) const
       {
         if (!areas.faces(node).empty())
-          overlap.check(slave.point(node),
-                        [&](const Coordinates &normal) { return faces(node, normal); });
+          overlap.check(
+              slave.point(node), [&](const Coordinates &normal) { return faces(node, normal); },
+              no_contact);
       }
 
       /// Length of the smallest face of a node [m].
@@ -210,12 +211,14 @@ namespace taut
           constraints.push_back(std::move(*c));
         }
         else
-          projection.check_overlap(node);
+          projection.check_overlap(node, false);
       std::vector<char> is_constrained(slave.points.size(), 0);
       for (const SurfaceConstraint &c : constraints)
         is_constrained[c.node] = 1;
       for (SurfaceConstraint &c : constraints)
         projection.find_overhang(is_constrained, c);
+      for (unsigned int node = 0; constraints.empty() && node < slave.points.size(); ++node)
+        projection.check_overlap(node, true);
       if (constraints.empty() && !inner_points(slave, master, wanted_distance, boundaries).empty())
         throw UserError("contact surfaces '" + slave.name + "' and '" + master.name +
                         "': the second lies between nodes of the first, and no node of the first "

@@ -17,6 +17,10 @@ namespace taut
     /// Part of a line, or of a face, by which places on faces round.
     constexpr double rounding = 1e-6;
 
+    /// Smallest cosine of the direction from a place inside a body to the closest one on its faces,
+    /// at an edge of a concave side. Outside, at a sharp edge, it is smaller.
+    constexpr double along_normal = .9;
+
     double half_diagonal(const SurfaceGeometry &geometry)
     {
       Box box{geometry.point(0), geometry.point(0)};
@@ -126,7 +130,8 @@ namespace taut
   }
 
   void Overlap::check(const Coordinates &x,
-                      const std::function<bool(const Coordinates &normal)> &faces) const
+                      const std::function<bool(const Coordinates &normal)> &faces,
+                      const bool no_contact) const
   {
     if (slave.surface().name == master.surface().name)
       return; // a body does not overlap itself
@@ -135,13 +140,18 @@ namespace taut
     nearest.distance = std::numeric_limits<double>::infinity();
     const auto visit = [&](const std::size_t face, const double distance)
     {
-      if (const ClosestPoint found = all.points.find(face, x); found.distance < nearest.distance)
+      const ClosestPoint found = all.points.find(face, x);
+      if (found.distance < nearest.distance &&
+          (!no_contact || faces(master.at(face, found.reference).normal())))
         nearest = found;
       return distance <= nearest.distance;
     };
     all.search.visit_nearest(x, visit);
+    if (std::isinf(nearest.distance))
+      return;
     const FacePoint p = master.at(nearest.face, nearest.reference);
-    if (nearest.on_open_border || dot(p.position - x, p.area) <= 0. || !faces(p.normal()) ||
+    if (nearest.on_open_border || !faces(p.normal()) ||
+        dot(p.position - x, p.normal()) < along_normal * nearest.distance ||
         is_closed(x, p.position))
       return;
     const auto [thinner, thicker] = all.exits(x, p.position);

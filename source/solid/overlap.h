@@ -28,9 +28,10 @@ namespace taut
     bool is_closed(const Coordinates &slave, const Coordinates &master) const;
 
     /// Throws the UserError for a place of the slave that is in the master too deeply, below a face
-    /// whose normal it @p faces.
+    /// whose normal it @p faces. A place that is nearer to another side of the master may be in it
+    /// by a contact of that side: it counts if the bodies have @p no_contact.
     void check(const Coordinates &slave,
-               const std::function<bool(const Coordinates &normal)> &faces) const;
+               const std::function<bool(const Coordinates &normal)> &faces, bool no_contact) const;
 
   private:
     struct Boundaries;

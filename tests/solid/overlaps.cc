@@ -10,6 +10,15 @@ using namespace solid_limits;
 
 namespace
 {
+  /// Force along y.
+  double upwards(const Ran &ran)
+  {
+    double force = 0.;
+    for (std::size_t i = 0; i < ran.forces.size(); ++i)
+      force -= ran.forces[i] * ran.constraints[i].normal.y;
+    return force;
+  }
+
   double sum(const std::vector<double> &values)
   {
     return std::accumulate(values.begin(), values.end(), 0.);
@@ -58,7 +67,7 @@ namespace
   Ran blocks(const unsigned int dim, const double overlap, const std::string &method,
              const bool whole)
   {
-    const std::string n = dim == 2 ? "8, 16" : "8, 16, 8", a = dim == 2 ? "" : ", 0",
+    const std::string n = dim == 2 ? "8, 16" : "8, 6, 8", a = dim == 2 ? "" : ", 0",
                       b = dim == 2 ? "" : ", 1", space = dim == 2 ? "" : "Dimension = 3; ";
     const auto block = [&](const std::string &name, const double y, const std::string &fixed)
     {
@@ -75,7 +84,7 @@ namespace
 
   bool warns(const Ran &ran)
   {
-    return std::count(ran.warnings.begin(), ran.warnings.end(), "between nodes") > 0;
+    return has(ran.log, "forces act at nodes of the slave");
   }
 } // namespace
 
@@ -91,8 +100,8 @@ TEST(SolidOverlaps, interference_deeper_than_an_element)
                     solid("up", "File = " + upper->path(), "Fixed boundaries = 13"),
                 contact("up: 12", "lo: 3") + at_rest));
   ASSERT_EQ(found.error, "");
-  verification::figure("interference deeper than an element, force", sum(found.forces), "N");
-  EXPECT_NEAR(sum(found.forces), 2.5e6, 2.5e3);
+  verification::figure("interference deeper than an element, force", upwards(found), "N");
+  EXPECT_NEAR(upwards(found), 2.5e6, 1e4);
 }
 
 // Expected: without lateral contraction, E times overlap over the length of both. Elements are of
@@ -149,7 +158,7 @@ TEST(SolidOverlaps, cylinder_between_nodes)
   EXPECT_TRUE(warns(coarse)) << coarse.log;
   EXPECT_TRUE(has(coarse.log, "where the obstacle enters by 0.01")) << coarse.log;
   EXPECT_FALSE(warns(fine)) << fine.log;
-  EXPECT_NEAR(sum(fine.forces), 7.2e5, .02 * 7.2e5);
+  EXPECT_NEAR(upwards(fine), 7.2e5, .02 * 7.2e5);
 }
 
 // Expected: as above; 1.9e5 N by elements of 1/32 m.
@@ -168,10 +177,11 @@ TEST(SolidOverlaps, bump_between_nodes)
         contact("up: 2", "lo: 13") + at_rest));
     ASSERT_EQ(found.error, "");
     EXPECT_EQ(warns(found), n == "8, 4") << found.log;
-    if (n == "8, 4")
-      EXPECT_TRUE(has(found.log, "elements of at most 0.01562 m there, or exchange")) << found.log;
-    else
-      EXPECT_NEAR(sum(found.forces), 1.9e5, .1 * 1.9e5);
+    EXPECT_EQ(has(found.log, "elements of at most 0.01575 m there, or exchange"), n == "8, 4");
+    if (n != "8, 4")
+    {
+      EXPECT_NEAR(upwards(found), 1.9e5, .1 * 1.9e5);
+    }
   }
 }
 
@@ -271,6 +281,8 @@ TEST(SolidOverlaps, an_overhang_of_rounding_is_none)
       ASSERT_EQ(found.error, "");
       EXPECT_EQ(has(found.log, "overhangs"), part > 1e-4) << found.log;
       if (part < 1e-4)
+      {
         EXPECT_NEAR(sum(found.forces), 1e9 * 1e-3 / 2., 50.);
+      }
     }
 }

@@ -51,7 +51,8 @@ namespace taut
       for (Worst &w : worst)
         archive &w.excess &w.value &w.limit &w.time &w.item &w.place;
       for (Sliding &c : contacts)
-        archive &c.carries &c.entered.excess &c.entered.value &c.entered.time &c.entered.place;
+        archive &c.carries &c.entered.excess &c.entered.value &c.entered.limit &c.entered.time &c
+            .entered.place;
     }
 
   private:
@@ -98,8 +99,9 @@ namespace taut
       std::vector<char> between;    ///< of each constraint: on a face of the master, not at a node
       std::vector<SurfaceConstraint> left_out;
       std::vector<InnerPoint> inner;
-      bool carries = false; ///< at any time
-      Worst entered;        ///< depth at an inner point, its excess over the face
+      bool carries = false;  ///< at any time
+      double first_gap = 0.; ///< where the sides meet first [m]
+      Worst entered; ///< depth at an inner point, its excess over the face; a limit at any of them
     };
 
     void add_body(const Scene &scene, const SceneBodies &structure, std::size_t body);
