@@ -44,16 +44,22 @@ namespace taut
         double nearest = std::numeric_limits<double>::infinity();
         const auto visit = [&](const std::size_t face, const double distance)
         {
-          if (dot(surface.outward[face], d) > 0.)
-            nearest = std::min(nearest, meet(face, x, d));
+          const Coordinates &out = surface.outward[face];
+          if (const double along = dot(out, d); along > 0.)
+            nearest = std::min(nearest,
+                               meet(face, x, d,
+                                    // A line that leaves the body where it begins.
+                                    along > facing * norm(out) * norm(d) ? -rounding : rounding));
           return distance <= (1. + rounding) * norm(d);
         };
         search.visit_nearest(add_scaled(x, 1., d), visit);
         return nearest;
       }
 
-      /// Where a line meets a face, taken as triangles between its corners, or as a straight edge.
-      double meet(const std::size_t face, const Coordinates &x, const Coordinates &d) const
+      /// Where a line meets a face after @p begin, in lengths of @p d. The face is taken as
+      /// triangles between its corners, or as a straight edge.
+      double meet(const std::size_t face, const Coordinates &x, const Coordinates &d,
+                  const double begin) const
       {
         double nearest = std::numeric_limits<double>::infinity();
         const std::vector<unsigned int> &nodes = geometry.nodes(face);
@@ -67,7 +73,7 @@ namespace taut
           const double at = dot(a - x, n) / across;
           const Coordinates q = add_scaled(x - a, at, d);
           const double u = dot(cross(q, c), n) / square, v = dot(cross(b, q), n) / square;
-          if (at > rounding && std::min(u, v) >= -rounding && u + v <= 1. + rounding)
+          if (at > begin && std::min(u, v) >= -rounding && u + v <= 1. + rounding)
             nearest = std::min(nearest, at);
         };
         if (surface.dim == 2) // a triangle across the plane
