@@ -123,9 +123,10 @@ namespace taut
   void MeshEntries::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Mesh");
-    prm.add_parameter("File", file,
-                      "Of a mesh in a format that deal.II reads, e.g. .msh of gmsh, relative to the "
-                      "parameter file; empty: Generator makes it");
+    prm.add_parameter(
+        "File", file,
+        "Of a mesh in a format that deal.II reads, e.g. .msh of gmsh, relative to the "
+        "parameter file; empty: Generator makes it");
     prm.add_parameter("Generator", generator,
                       "Function of deal.II's GridGenerator. Its arguments: "
                       "subdivided_hyper_rectangle, 'numbers of cells : corner : opposite corner'; "
