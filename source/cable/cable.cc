@@ -54,11 +54,6 @@ namespace taut
     return add_scaled(data.force, data.section.mass_per_length, data.gravity);
   }
 
-  CableElements make_elements(const CableData &data, const double length)
-  {
-    return {data.element, length, data.n_elements, data.section};
-  }
-
   Cable::Cable(const CableData &given)
       : Substructure(given.name, given.origin), data(given),
         element(make_elements(given, given.length)), frames(std::make_unique<EndFrames>())
@@ -105,6 +100,9 @@ namespace taut
     slack.place = place;
     slack.bending_stiffness = data.section.bending_stiffness;
     slack.axial_damping = data.section.axial_damping;
+    for (unsigned int i = 0; i + 1 < piece_ends.size(); ++i)
+      slack.is_straight = slack.is_straight || (pushes(work, i) && is_straight(work, i));
+    slack.disturbance = data.disturbance * data.length;
     return true;
   }
 
@@ -150,18 +148,26 @@ namespace taut
             "it is of held ends, and Held ends = none; hold one, or set it to false");
     require(!data.starts_straight || norm(data.start_direction) > 0., "Start direction",
             "it has no length");
+    require(data.disturbance >= 0., "Disturbance", "it is negative");
   }
 
-  /// True if only one end is held, and the other end is below it by less than the length of the
-  /// cable. Between these places the cable would fold. Its shape is that with the other end free.
+  /// Of a cable that one end holds: that end, or the upper one if links will hold it.
+  bool Cable::hangs_from_last() const
+  {
+    return data.holds_to ||
+           (!data.holds_from && dot(data.to - data.from, force_per_length(data)) < 0.);
+  }
+
+  /// True if one end is free, and below the other one by less than the length of the cable. Between
+  /// these places the cable would fold. Its shape is that with the lower end free.
   bool Cable::hangs_freely() const
   {
     const Coordinates load = force_per_length(data);
-    if (data.holds_from == data.holds_to || data.geometry == CableGeometry::linear ||
+    if ((data.holds_from && data.holds_to) || data.geometry == CableGeometry::linear ||
         !(norm(load) > 0.))
       return false;
     const Coordinates down = add_scaled({}, 1. / norm(load), load),
-                      chord = data.holds_from ? data.to - data.from : data.from - data.to;
+                      chord = hangs_from_last() ? data.from - data.to : data.to - data.from;
     const double below = dot(chord, down), beside = norm(add_scaled(chord, -below, down));
     return below >= 0. && below <= hanging_length(element, load) &&
            beside <= above_each_other * data.length;
@@ -173,8 +179,9 @@ namespace taut
     about_entry(origin(),
                 [&]
                 {
-                  found = hangs_freely() ? hang_freely(element, data.holds_to ? to : Coordinates(),
-                                                       data.holds_to, load)
+                  const bool from_last = hangs_from_last();
+                  found = hangs_freely() ? hang_freely(element, from_last ? to : Coordinates(),
+                                                       from_last, load)
                                          : hang(element, {}, to, load);
                 });
     check_at_rest(std::vector<double>(element.n_dofs(), 0.));
@@ -211,6 +218,7 @@ namespace taut
 
   void Cable::hold()
   {
+    find_pieces();
     for (const unsigned int i : element.unused_dofs())
       constrained.push_back({i});
     for (const bool last : {false, true})
@@ -308,8 +316,9 @@ namespace taut
     if (is_linear())
       return 0.;
     constexpr double operations = 8.;
-    const double h = element.element_length(), stiffness = data.section.axial_stiffness +
-                                                           data.section.bending_stiffness / (h * h);
+    const double h = element.shortest_element(),
+                 stiffness =
+                     data.section.axial_stiffness + data.section.bending_stiffness / (h * h);
     return operations * std::numeric_limits<double>::epsilon() * stiffness *
            (1. + data.length / h) * (kind == 0 ? 1. : h);
   }
@@ -328,6 +337,7 @@ namespace taut
       return Substructure::mean_internal_force(U0, U1, step, f);
     set_positions(U0, work_0);
     set_positions(U1, work);
+    disturb(work_0, work);
     element.mean_force(work_0, work, step, f);
     frames->turn(f);
   }
@@ -370,7 +380,7 @@ namespace taut
 
   LinearForm Cable::node_displacement(const unsigned int node, const Coordinates &direction) const
   {
-    return displacement({node * element.element_length()}, direction);
+    return displacement({element.place(node)}, direction);
   }
 
   void Cable::initial_state(std::vector<double> &U, std::vector<double> &V) const

@@ -13,7 +13,29 @@ namespace taut
 {
   CableElements::CableElements(const CableElement element, const double length,
                                const unsigned int n_elements, const CableSection &section)
-      : kind(element), n(n_elements), h(length / n_elements), material(section)
+      : kind(element), n(n_elements), h(length / n_elements), shortest(h), material(section)
+  {
+    ratios.length.assign(n + 1 + ElementBatch::size, 1.);
+    ratios.of_position = ratios.of_middle = ratios.length;
+    set_points();
+  }
+
+  CableElements::CableElements(const CableElement element, const std::vector<double> &places,
+                               const CableSection &section)
+      : CableElements(element, places.back(), places.size() - 1, section)
+  {
+    nodes = places;
+    for (unsigned int e = 0; e < n; ++e)
+    {
+      const double length = nodes[e + 1] - nodes[e];
+      shortest = std::min(shortest, length);
+      ratios.length[e] = length / h;
+      ratios.of_position[e] = h / length;
+      ratios.of_middle[e] = kind == CableElement::bar ? h / length : 1.;
+    }
+  }
+
+  void CableElements::set_points()
   {
     const auto points = [&](const dealii::Quadrature<1> &quadrature)
     {
@@ -52,6 +74,12 @@ namespace taut
     return {{first, first + 1, first + 2}};
   }
 
+  CableElements CableElements::with_section(const CableSection &section) const
+  {
+    return nodes.empty() ? CableElements(kind, length(), n, section)
+                         : CableElements(kind, nodes, section);
+  }
+
   CableElements CableElements::with_axial_stiffness(const double EA) const
   {
     CableElements other = *this;
@@ -74,6 +102,32 @@ namespace taut
               (6. * xi - 2.) / h}}};
   }
 
+  /// Those of one element; shapes(xi) are those of an element of mean length.
+  CableElements::Shapes CableElements::shapes(const double xi, const unsigned int e) const
+  {
+    Shapes result = shapes(xi);
+    const Point scaled = in_element({0., xi, result.slope, result.curvature}, e);
+    result.slope = scaled.slope;
+    result.curvature = scaled.curvature;
+    if (kind == CableElement::ancf)
+      for (const unsigned int a : {1, 3})
+        result.value[a] *= ratios.length[e];
+    return result;
+  }
+
+  CableElements::Point CableElements::in_element(const Point &p, const unsigned int e) const
+  {
+    Point result = p;
+    result.weight *= ratios.length[e];
+    for (unsigned int a = 0; a < 4; ++a)
+    {
+      const double own = a % 2 == 0 ? ratios.of_position[e] : ratios.of_middle[e];
+      result.slope[a] *= own;
+      result.curvature[a] *= own * ratios.of_position[e];
+    }
+    return result;
+  }
+
   /// The DoFs of an element, with positions relative to its first node: small differences of large
   /// numbers are taken once.
   CableElements::Local CableElements::local(const std::vector<double> &q,
@@ -93,19 +147,36 @@ namespace taut
 
   void CableElements::add_load(const Coordinates &force, std::vector<double> &f) const
   {
-    Local sum{};
     const dealii::QGauss<1> quadrature(2); // exact
-    for (unsigned int k = 0; k < quadrature.size(); ++k)
-      distribute(shapes(quadrature.point(k)[0]).value,
-                 h * quadrature.weight(k) * Vector({force.x, force.y, force.z}), sum);
     for (unsigned int e = 0; e < n; ++e)
+    {
+      Local sum{};
+      for (unsigned int k = 0; k < quadrature.size(); ++k)
+        distribute(
+            shapes(quadrature.point(k)[0], e).value,
+            h * ratios.length[e] * quadrature.weight(k) * Vector({force.x, force.y, force.z}), sum);
       for (unsigned int i = 0; i < element_dofs; ++i)
         f[dofs_per_node * e + i] += sum[i];
+    }
+  }
+
+  double CableElements::place(const double count) const
+  {
+    if (nodes.empty())
+      return h * count;
+    const unsigned int e = std::min(static_cast<unsigned int>(count), n - 1);
+    return count == n ? nodes[n] : nodes[e] + (count - e) * (nodes[e + 1] - nodes[e]);
   }
 
   /// The element that contains s, and xi of s.
   std::pair<unsigned int, double> CableElements::find(const double s) const
   {
+    if (!nodes.empty())
+    {
+      const auto after = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s);
+      const unsigned int e = after - nodes.begin() - 1;
+      return {e, std::clamp((s - nodes[e]) / (nodes[e + 1] - nodes[e]), 0., 1.)};
+    }
     const double place = std::clamp(s / h, 0., double(n));
     const unsigned int e = std::min(static_cast<unsigned int>(place), n - 1);
     return {e, place - e};
@@ -115,7 +186,7 @@ namespace taut
                                  const bool slope) const
   {
     const auto [e, xi] = find(s);
-    const Shapes all = shapes(xi);
+    const Shapes all = shapes(xi, e);
     const Shape &shape = slope ? all.slope : all.value;
     LinearForm result;
     result.index.reserve(element_dofs);
@@ -141,7 +212,7 @@ namespace taut
                                     const bool slope) const
   {
     const auto [e, xi] = find(s);
-    const Shapes all = shapes(xi);
+    const Shapes all = shapes(xi, e);
     Local x;
     std::copy_n(q.begin() + dofs_per_node * e, element_dofs, x.begin());
     const Vector r = combine(slope ? all.slope : all.value, x);
@@ -169,7 +240,8 @@ namespace taut
       for (const Point &other : axial_points)
         if (&other != &p)
           weight *= (xi - other.xi) / (p.xi - other.xi);
-      tension += weight * material.axial_stiffness * (combine(p.slope, x).norm() - 1.);
+      tension +=
+          weight * material.axial_stiffness * (combine(in_element(p, e).slope, x).norm() - 1.);
     }
     return tension;
   }
@@ -179,7 +251,7 @@ namespace taut
     double strain = -1.;
     for (unsigned int e = 0; e < n; ++e)
       for (const Point &p : axial_points)
-        strain = std::max(strain, combine(p.slope, local(q, e)).norm() - 1.);
+        strain = std::max(strain, combine(in_element(p, e).slope, local(q, e)).norm() - 1.);
     return strain;
   }
 
@@ -188,7 +260,7 @@ namespace taut
     if (kind == CableElement::bar)
       return 0.;
     const auto [e, xi] = find(s);
-    const Shapes all = shapes(xi);
+    const Shapes all = shapes(xi, e);
     const Local x = local(q, e);
     const Vector u = combine(all.slope, x), v = combine(all.curvature, x);
     return dealii::cross_product_3d(u, v).norm() / u.norm_square();

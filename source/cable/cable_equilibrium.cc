@@ -55,7 +55,7 @@ namespace taut
         if (!is_slope(cable, i))
           size = std::max(size, std::fabs(q[i]));
       const CableSection &section = cable.section();
-      const double h = cable.element_length();
+      const double h = cable.shortest_element();
       return 8. * eps * (section.axial_stiffness + section.bending_stiffness / (h * h)) *
              (1. + size / h);
     }
@@ -73,7 +73,7 @@ namespace taut
     M = make_block_tridiagonal(CableElements::dofs_per_node, cable.n_dofs());
     CableSection one;
     one.mass_per_length = 1.;
-    CableElements(cable.element(), cable.length(), cable.n_elements(), one).add_mass(1., *M);
+    cable.with_section(one).add_mass(1., *M);
   }
 
   bool CableEquilibrium::find(const CableElements &of, std::vector<double> &positions)

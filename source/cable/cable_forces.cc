@@ -29,8 +29,9 @@ namespace taut
     }
   } // namespace
 
-  /// Elements from @p first on. The first node is their origin and left out. Behind the last node
-  /// the batch goes to and fro, so that no element lacks a length.
+  /// Elements from @p first on, with positions scaled to elements of mean length, whose r' is
+  /// theirs. The first node is their origin and left out. Behind the last node the batch goes to
+  /// and fro, so that no element lacks a length.
   inline ElementBatch CableElements::batch(const std::vector<double> &q,
                                            const unsigned int first) const
   {
@@ -49,13 +50,15 @@ namespace taut
     // Strided reads: vector instructions would wait for values that are stored one by one.
     ElementBatch x;
     const double relative = kind == CableElement::bar ? 1. : 0.;
+    const double *const of_position = ratios.of_position.data() + first,
+                        *const of_middle = ratios.of_middle.data() + first;
     for (unsigned int c = 0; c < 3; ++c)
 #pragma omp simd
       for (unsigned int l = 0; l < ElementBatch::size; ++l)
       {
         const double *const element = own + dofs_per_node * l;
-        x.dof[3 + c][l] = element[3 + c] - relative * element[c];
-        x.dof[6 + c][l] = element[6 + c] - element[c];
+        x.dof[3 + c][l] = of_middle[l] * (element[3 + c] - relative * element[c]);
+        x.dof[6 + c][l] = of_position[l] * (element[6 + c] - element[c]);
         x.dof[9 + c][l] = element[9 + c];
       }
     return x;
@@ -66,11 +69,9 @@ namespace taut
   CableElements::end_weights(const unsigned int first) const
   {
     std::array<double, ElementBatch::size> weight;
-    weight.fill(2. * end_weight);
-    if (first == 0)
-      weight[0] = end_weight;
-    if (n - first < ElementBatch::size)
-      weight[n - first] = end_weight;
+    for (unsigned int l = 0; l < ElementBatch::size; ++l)
+      weight[l] = end_weight * ((first + l > 0 ? ratios.length[first + l - 1] : 0.) +
+                                (first + l != n ? ratios.length[first + l] : 0.));
     return weight;
   }
 
@@ -84,6 +85,8 @@ namespace taut
           for (unsigned int first = 0; first <= n; first += ElementBatch::size)
           {
             const ElementBatch x = batch(q, first);
+            const double *const length = ratios.length.data() + first,
+                                *const shorter = ratios.of_position.data() + first;
             const auto axial = [EA = material.axial_stiffness](const Coordinates &u)
             {
               const double strain = stretch_of(u) - 1.;
@@ -96,11 +99,11 @@ namespace taut
             for (const Point &p : inner_axial_points)
 #pragma omp simd
               for (unsigned int l = 0; l < ElementBatch::size; ++l)
-                sum[l] += p.weight * axial(combine(p.slope, x, l));
+                sum[l] += length[l] * p.weight * axial(combine(p.slope, x, l));
             for (const Point &p : bending_points)
 #pragma omp simd
               for (unsigned int l = 0; l < ElementBatch::size; ++l)
-                sum[l] += .5 * p.weight * material.bending_stiffness *
+                sum[l] += .5 * p.weight * material.bending_stiffness * shorter[l] *
                           curvature_squared(combine(p.slope, x, l), combine(p.curvature, x, l));
             for (unsigned int l = 0; l < std::min(n - first, ElementBatch::size); ++l)
               all += sum[l];
@@ -158,6 +161,13 @@ namespace taut
               for (unsigned int l = 0; l < ElementBatch::size; ++l)
                 sum.dof[c][l] = kind == CableElement::bar ? -(sum.dof[3 + c][l] + sum.dof[6 + c][l])
                                                           : -sum.dof[6 + c][l];
+            if (kind == CableElement::ancf)
+              for (unsigned int c = 0; c < 3; ++c)
+                for (unsigned int l = 0; l < ElementBatch::size; ++l)
+                {
+                  sum.dof[3 + c][l] *= ratios.length[first + l];
+                  sum.dof[9 + c][l] *= ratios.length[first + l];
+                }
             if (n - first < ElementBatch::size) // no element begins at the last node
               for (unsigned int i = 0; i < dofs_per_node; ++i)
                 sum.dof[i][n - first] = 0.;
@@ -197,17 +207,18 @@ namespace taut
       if (damped)
         of_velocity = batch(velocity, first);
       const ElementBatch &rate = damped ? of_velocity : x;
+      const double *const shorter = ratios.of_position.data() + first;
       set_axial_forces(first, x, rate, axial, sum, of_nodes);
       for (const Point &p : bending_points)
 #pragma omp simd
         for (unsigned int l = 0; l < ElementBatch::size; ++l)
         {
           // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
-          const Coordinates u = combine(p.slope, x, l), v = combine(p.curvature, x, l),
+          const Coordinates u = combine(p.slope, x, l), v = shorter[l] * combine(p.curvature, x, l),
                             w = cross_product(u, v);
           const double a = dot(u, u), factor = p.weight * material.bending_stiffness / (a * a);
           distribute(p.slope, factor * (cross_product(v, w) + (-2. * dot(w, w) / a) * u), sum, l);
-          distribute(p.curvature, factor * cross_product(w, u), sum, l);
+          distribute(p.curvature, (shorter[l] * factor) * cross_product(w, u), sum, l);
         }
     };
     integrate_force(f, integrand);
@@ -229,6 +240,7 @@ namespace taut
     const auto integrand = [&](const unsigned int first, ElementBatch &sum, NodeBatch &of_nodes)
     {
       const ElementBatch x0 = batch(q0, first), x1 = batch(q1, first);
+      const double *const shorter = ratios.of_position.data() + first;
       set_axial_forces(first, x0, x1, axial, sum, of_nodes);
       for (const Point &p : bending_points)
 #pragma omp simd
@@ -237,7 +249,8 @@ namespace taut
           // kappa^2 = c A - (b A)^2 with a = u . u, b = u . v, c = v . v and A = 1 / a:
           // differences of products, with means of the factors.
           const Coordinates u0 = combine(p.slope, x0, l), u1 = combine(p.slope, x1, l),
-                            v0 = combine(p.curvature, x0, l), v1 = combine(p.curvature, x1, l);
+                            v0 = shorter[l] * combine(p.curvature, x0, l),
+                            v1 = shorter[l] * combine(p.curvature, x1, l);
           const Coordinates u = .5 * (u0 + u1), v = .5 * (v0 + v1);
           const double A0 = 1. / dot(u0, u0), A1 = 1. / dot(u1, u1), b0 = dot(u0, v0),
                        b1 = dot(u1, v1), A = .5 * (A0 + A1), b = .5 * (b0 + b1),
@@ -245,7 +258,7 @@ namespace taut
           const double by_a = (2. * b * bA - c) * A0 * A1, by_b = -2. * bA * A, by_c = A;
           const double factor = .5 * p.weight * material.bending_stiffness;
           distribute(p.slope, factor * ((2. * by_a) * u + by_b * v), sum, l);
-          distribute(p.curvature, factor * (by_b * u + (2. * by_c) * v), sum, l);
+          distribute(p.curvature, (shorter[l] * factor) * (by_b * u + (2. * by_c) * v), sum, l);
         }
     };
     integrate_force(f, integrand);
@@ -258,13 +271,14 @@ namespace taut
         [this, &q, all_least = &least, all_found = &found]
         {
           double smallest = *all_least, where = 0.;
-          const auto compare = [&](const double *stretch, const unsigned int size, const double s)
+          const auto compare =
+              [&](const double *stretch, const unsigned int size, const double count)
           {
             const double *const shortest = std::min_element(stretch, stretch + size);
             if (size == 0 || !(*shortest < smallest))
               return;
             smallest = *shortest;
-            where = s + h * (shortest - stretch);
+            where = this->place(count + (shortest - stretch));
           };
           for (unsigned int first = 0; first <= n; first += ElementBatch::size)
           {
@@ -275,14 +289,14 @@ namespace taut
 #pragma omp simd
               for (unsigned int l = 0; l < ElementBatch::size; ++l)
                 stretch[l] = stretch_of(x.derivative(l));
-              compare(stretch, std::min(n + 1 - first, ElementBatch::size), h * first);
+              compare(stretch, std::min(n + 1 - first, ElementBatch::size), first);
             }
             for (const Point &p : inner_axial_points)
             {
 #pragma omp simd
               for (unsigned int l = 0; l < ElementBatch::size; ++l)
                 stretch[l] = stretch_of(combine(p.slope, x, l));
-              compare(stretch, std::min(n - first, ElementBatch::size), h * (first + p.xi));
+              compare(stretch, std::min(n - first, ElementBatch::size), first + p.xi);
             }
           }
           *all_least = smallest;

@@ -64,10 +64,12 @@ namespace taut
     const Matrix identity(dealii::unit_symmetric_tensor<3>());
   } // namespace
 
-  void CableElements::add_axial_tangent(const Local &x, const bool definite, LocalMatrix &K) const
+  void CableElements::add_axial_tangent(const Local &x, const unsigned int e, const bool definite,
+                                        LocalMatrix &K) const
   {
-    for (const Point &p : axial_points)
+    for (const Point &of_mean : axial_points)
     {
+      const Point p = in_element(of_mean, e);
       const Vector u = combine(p.slope, x);
       const double stretch = u.norm();
       const double geometric = material.axial_stiffness * (stretch - 1.) / stretch,
@@ -78,10 +80,12 @@ namespace taut
     }
   }
 
-  void CableElements::add_bending_tangent(const Local &x, const bool definite, LocalMatrix &K) const
+  void CableElements::add_bending_tangent(const Local &x, const unsigned int e, const bool definite,
+                                          LocalMatrix &K) const
   {
-    for (const Point &p : bending_points)
+    for (const Point &of_mean : bending_points)
     {
+      const Point p = in_element(of_mean, e);
       const Vector u = combine(p.slope, x), v = combine(p.curvature, x);
       const double a = u.norm_square();
       Matrix uu, uv, vv;
@@ -131,8 +135,8 @@ namespace taut
           {
             const Local x = local(q, e);
             LocalMatrix K{};
-            add_axial_tangent(x, definite, K);
-            add_bending_tangent(x, definite, K);
+            add_axial_tangent(x, e, definite, K);
+            add_bending_tangent(x, e, definite, K);
             add(K, e, A);
           }
         });
@@ -148,8 +152,9 @@ namespace taut
       for (unsigned int i = 0; i < element_dofs; ++i)
         x[i] = .5 * (x0[i] + x1[i]);
       LocalMatrix K{};
-      for (const Point &p : axial_points)
+      for (const Point &of_mean : axial_points)
       {
+        const Point p = in_element(of_mean, e);
         const Vector u = combine(p.slope, x);
         const double end = combine(p.slope, x1).norm(), sum = combine(p.slope, x0).norm() + end;
         const double geometric = material.axial_stiffness * (1. - 2. / sum),
@@ -159,7 +164,7 @@ namespace taut
                                (definite ? std::max(geometric, 0.) : geometric) * identity),
                    K);
       }
-      add_bending_tangent(x, definite, K);
+      add_bending_tangent(x, e, definite, K);
       add(K, e, A);
     }
   }
@@ -173,8 +178,9 @@ namespace taut
     {
       const Local x = local(q, e);
       LocalMatrix K{};
-      for (const Point &p : axial_points)
+      for (const Point &of_mean : axial_points)
       {
+        const Point p = in_element(of_mean, e);
         const Vector u = combine(p.slope, x);
         distribute(
             p.slope,
@@ -186,14 +192,15 @@ namespace taut
 
   void CableElements::add_mass(const double factor, SymmetricMatrix &A) const
   {
-    LocalMatrix K{};
     const dealii::QGauss<1> quadrature(4); // exact
-    for (unsigned int k = 0; k < quadrature.size(); ++k)
-    {
-      const Shape value = shapes(quadrature.point(k)[0]).value;
-      distribute(value, factor * material.mass_per_length * h * quadrature.weight(k) * identity, K);
-    }
     for (unsigned int e = 0; e < n; ++e)
+    {
+      LocalMatrix K{};
+      const double mass = factor * material.mass_per_length * (h * ratios.length[e]);
+      for (unsigned int k = 0; k < quadrature.size(); ++k)
+        distribute(shapes(quadrature.point(k)[0], e).value, mass * quadrature.weight(k) * identity,
+                   K);
       add(K, e, A);
+    }
   }
 } // namespace taut

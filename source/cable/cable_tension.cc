@@ -41,7 +41,7 @@ namespace taut
       largest = std::max(largest, std::fabs(q[i] - from[i]));
     if (!is_linear() || largest == 0.)
       return [&](const double s) { return element.tension(q, s); };
-    const double part = small_strain * std::min(1., element.element_length()) / largest;
+    const double part = small_strain * std::min(1., element.shortest_element()) / largest;
     std::vector<double> before = tangent_at, after = tangent_at;
     for (std::size_t i = 0; i < q.size(); ++i)
     {
@@ -58,9 +58,9 @@ namespace taut
   bool Cable::is_in_tension(const std::vector<double> &U) const
   {
     const std::vector<double> q = positions(U);
-    const double h = element.element_length(), rounding = rounding_of_force(0);
+    const double rounding = rounding_of_force(0);
     for (unsigned int e = 0; e < element.n_elements(); ++e)
-      if (!(element.tension(q, (e + .5) * h) > rounding))
+      if (!(element.tension(q, element.place(e + .5)) > rounding))
         return false;
     return element.smallest_strain(q) * data.section.axial_stiffness >= -rounding;
   }
@@ -72,7 +72,7 @@ namespace taut
     std::vector<Section> result;
     for (std::size_t i = 0; i < n_sections(); ++i)
     {
-      const double s = std::min(.5 * element.element_length() * i, data.length);
+      const double s = std::min(element.place(.5 * i), data.length);
       result.push_back({add_scaled(data.from, 1., element.position(q, s)), tension(s),
                         data.section.bending_stiffness * element.curvature(q, s)});
     }
@@ -86,9 +86,9 @@ namespace taut
     if (is_linear())
     {
       const auto tension = tension_at(q);
-      const double piece = element.element_length() / pieces;
       for (unsigned int k = 0; k <= pieces * element.n_elements(); ++k)
-        strain = std::max(strain, tension(std::min(k * piece, data.length)));
+        strain =
+            std::max(strain, tension(std::min(element.place(double(k) / pieces), data.length)));
       strain /= data.section.axial_stiffness;
     }
     else
@@ -108,8 +108,9 @@ namespace taut
   /// nor, by a part of its length, the place of the end.
   void Cable::check_free_end(const std::vector<double> &q, const bool last) const
   {
-    const double h = element.element_length(), end = last ? data.length : 0.,
-                 middle = last ? data.length - .5 * h : .5 * h, N = element.tension(q, middle);
+    const double end = last ? data.length : 0.,
+                 middle = element.place(last ? element.n_elements() - .5 : .5),
+                 N = element.tension(q, middle);
     const Coordinates a = element.tangent(q, middle), b = element.tangent(q, end);
     if (dot(a, b) >= std::cos(kink) * norm(a) * norm(b) ||
         std::fabs(element.tension(q, end)) > no_tension * N)
@@ -129,7 +130,7 @@ namespace taut
     for (unsigned int e = 0; e < lines.size(); ++e)
       for (unsigned int k = 0; k <= pieces; ++k)
       {
-        const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
+        const double s = std::min(element.place(e + double(k) / pieces), data.length);
         const Coordinates r = element.position(q, s);
         lines[e].push_back({add_scaled(data.from, 1., r),
                             r - element.position(found.positions, s),

@@ -29,13 +29,19 @@ namespace taut
       void declare_parameters(dealii::ParameterHandler &prm) override;
       std::size_t n_dofs() const override
       {
-        return CableElements::dofs_per_node * (n_elements + 1);
+        return CableElements::dofs_per_node * (n_elements + 1 + places.size());
       }
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override;
       ContactSurface surface(const BodySetting &setting,
                              const std::vector<unsigned int> &boundaries) const override;
       std::vector<double> places_at(const std::vector<double> &x,
                                     const BodySetting &setting) const override;
+      std::shared_ptr<const BodyType> divided(const std::vector<double> &at) const override
+      {
+        auto result = std::make_shared<CableType>(*this);
+        result->places = at;
+        return result;
+      }
 
     private:
       CableData data(const BodySetting &setting) const;
@@ -44,10 +50,11 @@ namespace taut
       std::vector<double> from = {0., 0.}, to = {1., 0.}, through, force, start_direction;
       double length = 0., tension = 0., sag = 0.;
       double axial_stiffness = 0., bending_stiffness = 0., mass = 0., axial_damping = 0.,
-             mass_damping = 0., largest_strain = .02;
+             mass_damping = 0., largest_strain = .02, disturbance = CableData().disturbance;
       unsigned int n_elements = 16;
       std::string element = "ANCF", held = "both", geometry = "nonlinear";
       bool clamped = false;
+      std::vector<double> places; ///< that are nodes
     };
 
     void CableType::declare_parameters(dealii::ParameterHandler &prm)
@@ -92,6 +99,11 @@ namespace taut
                         List(Double(), 0, 3));
       prm.add_parameter("Largest strain", largest_strain,
                         "A cable at rest with more is an error [1]", Double(0.));
+      prm.add_parameter("Disturbance", disturbance,
+                        "By how much a straight piece that is compressed by more than it bears "
+                        "is moved across its line, over the length of the cable: without that it "
+                        "would push. 0: it pushes [1]",
+                        Double(0.));
       prm.add_parameter("Geometry", geometry,
                         "nonlinear: motions of any size; linearised: small ones about where the "
                         "run starts; linear: small ones of a straight wire of the same tension",
@@ -140,6 +152,8 @@ namespace taut
                         : geometry == "linearised" ? CableGeometry::linearised
                                                    : CableGeometry::nonlinear;
       result.largest_strain = largest_strain;
+      result.disturbance = disturbance;
+      result.places = places;
       return result;
     }
 
@@ -163,7 +177,10 @@ namespace taut
                                         "Unstressed length");
       if (!(axial_stiffness > 0.))
         throw EntryError(origin + "Axial stiffness", "a cable needs a positive one [N]");
-      const auto make = [&](const double L) { return make_elements(data, L); };
+      // The length, from which places are counted, does not depend on them.
+      CableData undivided = data;
+      undivided.places.clear();
+      const auto make = [&](const double L) { return make_elements(undivided, L); };
       const Coordinates load = force_per_length(data), span = data.to - data.from;
       if (tension != 0.)
         return about_entry(origin + "Horizontal tension",
@@ -202,11 +219,10 @@ namespace taut
       ContactSurface surface;
       surface.dim = 1;
       for (unsigned int i = 0; i <= cable.elements().n_elements(); ++i)
-        surface.points.push_back(
-            add_scaled(result.from, 1.,
-                       cable.elements().position(
-                           cable.shape().positions,
-                           std::min(i * cable.elements().element_length(), result.length))));
+        surface.points.push_back(add_scaled(
+            result.from, 1.,
+            cable.elements().position(cable.shape().positions,
+                                      std::min(cable.elements().place(i), result.length))));
       for (unsigned int i = 0; i < cable.elements().n_elements(); ++i)
       {
         surface.faces.push_back({i, i + 1});

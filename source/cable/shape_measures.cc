@@ -60,13 +60,13 @@ namespace taut
   {
     const Profile profile(cable, shape, force);
     const auto height = [&](const double s) { return -profile.depth(s); };
-    const double h = cable.element_length();
     unsigned int lowest = 0;
     for (unsigned int i = 1; i <= cable.n_elements(); ++i)
-      if (height(i * h) < height(lowest * h))
+      if (height(cable.place(i)) < height(cable.place(lowest)))
         lowest = i;
-    return -boost::math::tools::brent_find_minima(height, std::max(0., (lowest - 1.) * h),
-                                                  std::min(cable.length(), (lowest + 1.) * h), 40)
+    return -boost::math::tools::brent_find_minima(
+                height, cable.place(std::max(0., lowest - 1.)),
+                cable.place(std::min<double>(cable.n_elements(), lowest + 1.)), 40)
                 .second;
   }
 

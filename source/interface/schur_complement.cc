@@ -15,11 +15,17 @@ namespace taut
     /// Numbers beside F for each DoF up to which F is assembled, some three times those of factors.
     constexpr double most_stored_numbers = 64.;
 
+    /// Numbers beside F, in all, up to which F is assembled for an equilibrium whatever they are
+    /// for each DoF: 32 MB. Conjugate gradients take ten times longer on a chain that lies on a
+    /// floor.
+    constexpr double few_numbers = 4e6;
+
     /// Number of columns that estimate the length of all.
     constexpr std::size_t n_samples = 16;
 
-    /// Numbers beside an assembled F, over the number of DoFs, on all ranks.
-    double stored_numbers_per_dof(const FactoredStructure &solvers, const Constraints &constraints)
+    /// Numbers beside an assembled F, and the number of DoFs, on all ranks.
+    std::vector<double> stored_numbers(const FactoredStructure &solvers,
+                                       const Constraints &constraints)
     {
       WindowedVector column;
       double sum = 0.;
@@ -38,7 +44,7 @@ namespace taut
                                         static_cast<double>(n_null_space) * constraints.size(),
                                     static_cast<double>(solvers.structure().n_dofs())};
       solvers.structure().communicator().sum(totals);
-      return totals[0] / std::max(1., totals[1]);
+      return totals;
     }
 
     /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F and
@@ -111,10 +117,12 @@ namespace taut
           return "condensed";
         if (!solvers.is_generalised_inverse() && solvers.has_rigid_body_modes())
           return "assembled sparse";
-        return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers ||
+        const std::vector<double> stored = stored_numbers(solvers, constraints);
+        return stored[0] <= most_stored_numbers * stored[1] ||
                        has_conditions_inside(solvers.structure())
                    ? "assembled sparse"
-                   : "matrix-free";
+               : solvers.is_generalised_inverse() && stored[0] <= few_numbers ? "assembled dense"
+                                                                              : "matrix-free";
       }
 
       InterfaceParameters parameters;

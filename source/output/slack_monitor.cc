@@ -37,6 +37,8 @@ namespace taut
       found[place] = slack.place;
       found[bending_stiffness] = slack.bending_stiffness;
       found[axial_damping] = slack.axial_damping;
+      found[is_straight] = slack.is_straight ? 1. : 0.;
+      found[disturbance] = slack.disturbance;
       return true;
     };
     watched.erase(std::remove_if(watched.begin(), watched.end(), is_slack), watched.end());
@@ -92,6 +94,11 @@ namespace taut
       else
         line
             << "nothing but inertia keeps it in shape, neither Bending stiffness nor Axial damping";
+      if (found[is_straight] > 0. && found[disturbance] > 0.)
+        line << ". It is straight there: moved by " << found[disturbance]
+             << " m across its line (Disturbance), it gives way";
+      else if (found[is_straight] > 0.)
+        line << ". It is straight there, and pushes, as its Disturbance is 0";
       log << line.str() << '\n';
     }
     if (n > most_named)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/scene/places_by_x.h>
 #include <taut/scene/shared_places.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -22,6 +24,36 @@ namespace taut
 
   namespace
   {
+    /// Calls @p visit with fixed ends of links and targets of point loads.
+    template <typename Visit>
+    void visit_nodes(Scene &scene, const Visit &visit)
+    {
+      for (Link &link : scene.links)
+      {
+        visit(link.from);
+        if (!link.moving())
+          visit(link.to);
+      }
+      for (Load &load : scene.loads)
+        if (load.kind == Load::Kind::point)
+          visit(load.target);
+    }
+
+    void divide_bodies(Scene &scene)
+    {
+      std::vector<std::vector<double>> places(scene.bodies.size());
+      visit_nodes(scene,
+                  [&](const Attachment &end)
+                  {
+                    if (end.kind == Attachment::Kind::body && end.index < places.size())
+                      places[end.index].push_back(end.place.x);
+                  });
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (const auto *const type = dynamic_cast<const PlacesByX *>(scene.bodies[i].type.get()))
+          if (auto divided = type->divided(places[i]))
+            scene.bodies[i].type = std::move(divided);
+    }
+
     /// The places inside each wire that are nodes of its grid.
     std::vector<std::vector<double *>> places_of_nodes(Scene &scene)
     {
@@ -48,15 +80,7 @@ namespace taut
       for (PointMass &mass : scene.point_masses)
         for (double &s : mass.positions)
           add_place(mass.wire, s);
-      for (Link &link : scene.links)
-      {
-        add(link.from);
-        if (!link.moving())
-          add(link.to);
-      }
-      for (Load &load : scene.loads)
-        if (load.kind == Load::Kind::point)
-          add(load.target);
+      visit_nodes(scene, add);
       return places;
     }
   } // namespace
@@ -84,5 +108,6 @@ namespace taut
         if (!move(*s, length) && !move(*s, first))
           first = *s;
     }
+    divide_bodies(scene);
   }
 } // namespace taut

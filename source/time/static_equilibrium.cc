@@ -147,7 +147,9 @@ namespace taut
       {
         try
         {
+          const std::vector<char> closed = step ? step->closed() : std::vector<char>();
           step.emplace(soft, turning.constraints(), parameters, time, U);
+          step->start_from(closed);
         }
         catch (const BodyNotHeld &)
         {

@@ -20,6 +20,10 @@ namespace taut
                const SolverParameters &parameters, double t, const BodyVectors &U);
     StaticState solve();
 
+    /// After solve(): which constraints are closed. Another step near this one starts from them.
+    const std::vector<char> &closed() const { return step.conditions().applied().closed; }
+    void start_from(const std::vector<char> &rows) { step.equations().start_from(rows); }
+
     /// After solve(): the certificate of its result.
     Certificate certify();
 

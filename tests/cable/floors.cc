@@ -104,3 +104,28 @@ TEST(CableFloors, tension_is_that_of_the_free_parts)
     EXPECT_NEAR(found.horizontal, exact, .1 * weight * length / 64.);
   }
 }
+
+// A chain that is nearly as long as its vertical parts and the floor between them. It touches at
+// nodes, so that the load on the floor is of first order: it lacks less than two elements.
+TEST(CableFloors, nearly_slack_chains)
+{
+  for (const auto &[length, depth] : {std::pair(35.9, 3.), {31.5, 1.}})
+  {
+    const double h = horizontal_on_floor(length, depth) / weight,
+                 free = std::sqrt(depth * depth + 2. * h * depth),
+                 exact = weight * (length - 2. * free);
+    double last = 0.;
+    for (const unsigned int n : {16u, 64u, 256u})
+    {
+      const double lacks = exact - on_floor(length, depth, n, 1e7, CableElement::bar).floor;
+      EXPECT_LT(std::fabs(lacks), 2. * weight * length / n) << length << " " << n;
+      if (n > 16)
+      {
+        EXPECT_LT(std::fabs(lacks), .6 * last) << length << " " << n;
+      }
+      last = std::fabs(lacks);
+    }
+    figure("load on a floor of a chain of " + std::to_string(length) + " m in 256 bars lacks",
+           last / (weight * length / 256.), "elements");
+  }
+}

@@ -102,3 +102,43 @@ TEST(CableJoints, ball_joints_of_masses_hold_one_place)
   EXPECT_EQ(joined("0, 0", "ground @ 3, 4"), "");
   expect(joined("0, 0", "ground @ 0, 0"), {"Link tie/To", "5 m apart"});
 }
+
+// A cable of 50 m between two bodies above each other, of which the upper one moves by (1 - cos 4
+// t) / 4. Expected: the mass on a spring EA / L with a third of the mass of the cable, from rest.
+TEST(CableJoints, vertical_cable_between_bodies)
+{
+  const std::string scene = R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
+Body rope: Type = cable; From = 0, 50; To = 0, 0; Unstressed length = 50; Axial stiffness = 1e8
+Body rope: Mass per length = 0.5; Element = bar; Elements = 10; Held ends = none
+Mass tip: Position = 0, 50; Motions = z; Mass = 1; Prescribed y = 0.25*(1-cos(4*t)); Prescribed x = 0
+Mass load: Position = 0, 0; Motions = x, y; Mass = 1000
+Link upper: Type = ball joint; From = rope @ 0, 0; To = tip
+Link lower: Type = ball joint; From = rope @ 50, 0; To = load
+Probe load: Point = load
+Probe middle: Point = rope @ 25, 0; Direction = 1, 0
+Time: Step = 1e-3; End = 1
+)";
+  const double omega = std::sqrt(1e8 / 50. / (1000. + 25. / 3.)),
+               R = 1. / (1. - 16. / (omega * omega));
+  // The other way round as ANCF.
+  const Overrides turned = {"Body rope/From=0, 0", "Body rope/To=0, 50", "Body rope/Element=ANCF",
+                            "Network/Link upper/From=rope @ 50, 0",
+                            "Network/Link lower/From=rope @ 0, 0"};
+  for (const Overrides &overrides : {Overrides(), turned})
+  {
+    double rest = 0., error = 0., beside = 0.;
+    run_scene(scene, overrides,
+              [&](const StepView &step)
+              {
+                const double t = step.state.time;
+                if (t == 0.)
+                  rest = step.probes[0];
+                const double y = .25 * (1. - R * std::cos(4. * t) + (R - 1.) * std::cos(omega * t));
+                error = std::max(error, std::fabs(step.probes[0] - rest - y));
+                beside = std::max(beside, std::fabs(step.probes[1]));
+              });
+    figure("mass below a vertical cable, error of its place", error, "m");
+    EXPECT_LT(error, 2e-3);
+    EXPECT_LT(beside, 1e-8);
+  }
+}

@@ -194,6 +194,64 @@ TEST(CableNets, unequal_masses)
     }
 }
 
+// The prestressed net of A. S. Saafan (J. Struct. Div. ASCE 96 (1970)), with the data of H. B.
+// Jayaraman and W. C. Knudson (Computers & Structures 14 (1981)): 100 ft between neighbours in
+// plan, supports 30 ft above the free nodes, 12000 kip/in^2, 0.227 in^2, 0.1 lb/ft, 5459 lb in
+// horizontal and 5325 lb in inclined cables before 8 kip act on each free node. Published
+// displacements of a free node: -0.1328, -0.1328, -1.4745 ft.
+TEST(CableNets, twelve_prestressed_cables)
+{
+  constexpr double ft = .3048, lb = 4.4482216152605, EA = 12e6 * .227 * lb;
+  Net net = square(2, EA, 0.);
+  for (std::size_t i = 0; i < net.system.places.size(); ++i)
+  {
+    Coordinates &place = net.system.places[i];
+    place = {100. * ft * place.x, i < net.system.n_free ? 0. : 30. * ft, 100. * ft * place.z};
+  }
+  for (JoinedCatenaries::Cable &cable : net.system.cables)
+  {
+    const bool is_horizontal = cable.from < net.system.n_free && cable.to < net.system.n_free;
+    cable.length = norm(net.system.places[cable.to] - net.system.places[cable.from]) /
+                   (1. + (is_horizontal ? 5459. : 5325.) * lb / EA);
+    cable.load = {0., -.1 * lb / ft, 0.};
+  }
+  set_masses(net, std::vector<double>(4, 8000. * lb / 9.81));
+  for (const std::string element : {"bar", "ANCF"})
+  {
+    net.elements = element;
+    const std::vector<Coordinates> places = found(net);
+    ASSERT_EQ(places.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Coordinates u = places[i] - net.system.places[i];
+      const bool is_far[] = {i > 1, i % 2 == 1}; // along x, along z
+      EXPECT_NEAR(u.x / ft, is_far[0] ? .1328 : -.1328, 5e-5) << element << " " << i;
+      EXPECT_NEAR(u.z / ft, is_far[1] ? .1328 : -.1328, 5e-5) << element << " " << i;
+      EXPECT_NEAR(u.y / ft, -1.4745, 5e-5) << element << " " << i;
+    }
+    EXPECT_LT(largest_distance(places, by_catenaries(net, places)), 1e-6) << element;
+  }
+}
+
+// The same in a net of 24 cables, of which the middle ones are pulled more and one node is loaded.
+TEST(CableNets, prestressed_cables_under_one_load)
+{
+  Net net = square(3, 4e6, 0.);
+  for (std::size_t i = net.system.n_free; i < net.system.places.size(); ++i)
+    net.system.places[i].y = i % 2 == 0 ? .4 : -.1;
+  for (std::size_t k = 0; k < net.system.cables.size(); ++k)
+  {
+    JoinedCatenaries::Cable &cable = net.system.cables[k];
+    cable.length = norm(net.system.places[cable.to] - net.system.places[cable.from]) /
+                   (1. + (k % 3 == 0 ? 9e3 : 5e3) / cable.EA);
+  }
+  set_masses(net, {0., 0., 0., 0., 0., 0., 0., 300., 0.});
+  const std::vector<Coordinates> places = found(net);
+  ASSERT_EQ(places.size(), 9u);
+  EXPECT_GT(norm(places[7] - net.system.places[7]), .05);
+  EXPECT_LT(largest_distance(places, by_catenaries(net, places)), 1e-6);
+}
+
 // A row of cables is one cable: nodes without masses change nothing.
 TEST(CableNets, a_row_is_one_cable)
 {

@@ -32,11 +32,15 @@ namespace taut
     Coordinates from, to; ///< places of the ends of its found shape [m]
     double length = 0.;   ///< unstressed, more than zero [m]
     CableSection section;
-    double mass_damping = 0.; ///< a in C = a M [1/s]
-    Coordinates gravity;      ///< [m/s^2]
-    Coordinates force;        ///< per unstressed length, beside the weight [N/m]
-    unsigned int n_elements = 16;
+    double mass_damping = 0.;     ///< a in C = a M [1/s]
+    Coordinates gravity;          ///< [m/s^2]
+    Coordinates force;            ///< per unstressed length, beside the weight [N/m]
+    unsigned int n_elements = 16; ///< no element is longer than this part of the cable
     CableElement element = CableElement::ancf;
+
+    /// Unstressed arc lengths that are nodes, as those of loads and links have to be, in any order
+    /// [m].
+    std::vector<double> places = {};
 
     bool holds_from = true, holds_to = true; ///< these ends do not move
     bool clamped = false;                    ///< held ends keep their direction, too
@@ -48,12 +52,21 @@ namespace taut
 
     CableGeometry geometry = CableGeometry::nonlinear;
     double largest_strain = .02; ///< at rest; a larger strain is an error [1]
+
+    /// By how much the forces of a step see a straight piece that is compressed moved across its
+    /// line, over the length of the cable: without that it would push. 0: it pushes [1].
+    double disturbance = 1e-3;
   };
 
   /// The force per unstressed length on a cable, weight included [N/m].
   Coordinates force_per_length(const CableData &data);
 
-  /// The elements of a cable with the unstressed length @p length [m].
+  /**
+   * The elements of a cable with the unstressed length @p length [m]. Without places they are
+   * equal. Otherwise each piece from place to place is divided into equal ones. Elements of ANCF
+   * are smooth at nodes, and a force makes a kink in a cable that hardly bends: it gets two nodes
+   * more, close beside the place.
+   */
   CableElements make_elements(const CableData &data, double length);
 
   /**
@@ -184,6 +197,11 @@ namespace taut
     bool hangs_freely() const;
     void find();
     void check_free_end(const std::vector<double> &q, bool last) const;
+    bool hangs_from_last() const;
+    void find_pieces();
+    bool is_straight(const std::vector<double> &q, unsigned int piece) const;
+    bool pushes(const std::vector<double> &q, unsigned int piece) const;
+    void disturb(std::vector<double> &q0, std::vector<double> &q1) const;
     void hold();
     void assemble();
     void straighten();
@@ -197,7 +215,8 @@ namespace taut
     CableData data;
     CableElements element;
     CableShape found;
-    std::vector<double> tangent_at; ///< positions whose tangent is K
+    std::vector<unsigned int> piece_ends; ///< nodes at the ends and at `places`
+    std::vector<double> tangent_at;       ///< positions whose tangent is K
 
     /// For a linearised cable: its displacement, internal force [N, N m] and strain energy [J] at
     /// the start.

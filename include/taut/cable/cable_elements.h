@@ -32,10 +32,9 @@ namespace taut
   };
 
   /**
-   * Elements of a cable in space, of equal unstressed length h, with positions r(s) over the
-   * unstressed arc length s in [0, L]. Use them without a scene, with find_shape(), or through
-   * Cable. All functions take absolute positions q. Node i has the DoFs 6 i to 6 i + 5, in this
-   * order:
+   * Elements of a cable in space with positions r(s) over the unstressed arc length s in [0, L].
+   * Use them without a scene, with find_shape(), or through Cable. All functions take absolute
+   * positions q. Node i has the DoFs 6 i to 6 i + 5, in this order:
    *
    * - ANCF: x, y, z [m] and the derivatives x', y', z' with respect to s [1];
    * - bar: x, y, z of the node and of the middle of the next element [m]. The last node has no next
@@ -53,16 +52,27 @@ namespace taut
   public:
     static constexpr unsigned int dofs_per_node = 6;
 
-    /// A cable of unstressed length @p length [m].
+    /// A cable of unstressed length @p length [m] in equal elements.
     CableElements(CableElement element, double length, unsigned int n_elements,
+                  const CableSection &section);
+
+    /// A cable whose nodes are at these unstressed arc lengths, from 0 on, sorted [m].
+    CableElements(CableElement element, const std::vector<double> &nodes,
                   const CableSection &section);
 
     CableElement element() const { return kind; }
     const CableSection &section() const { return material; }
-    double length() const { return h * n_elements(); }
+    double length() const { return nodes.empty() ? h * n : nodes.back(); }
     unsigned int n_elements() const { return n; }
     unsigned int n_dofs() const { return dofs_per_node * (n + 1); }
+
+    /// Mean length of the elements, and the shortest one [m].
     double element_length() const { return h; }
+    double shortest_element() const { return shortest; }
+
+    /// The unstressed arc length of a place that is counted in elements [m]: node i is at i, the
+    /// middle of the element after it at i + 1/2.
+    double place(double count) const;
 
     /// DoFs that no element has, sorted.
     std::vector<unsigned int> unused_dofs() const;
@@ -70,7 +80,8 @@ namespace taut
     /// DoFs of the position of the node at the first or last end.
     std::array<unsigned int, 3> end_dofs(bool last) const;
 
-    /// The same cable with another axial stiffness [N].
+    /// The same nodes with another section or axial stiffness [N].
+    CableElements with_section(const CableSection &section) const;
     CableElements with_axial_stiffness(double EA) const;
 
     /// The integral of the energy above [J].
@@ -138,11 +149,11 @@ namespace taut
       std::vector<double> q(n_dofs(), 0.);
       for (unsigned int i = 0; i <= n; ++i)
       {
-        set(q, dofs_per_node * i, r(h * i));
+        set(q, dofs_per_node * i, r(place(i)));
         if (kind == CableElement::ancf)
-          set(q, dofs_per_node * i + 3, dr(h * i));
+          set(q, dofs_per_node * i + 3, dr(place(i)));
         else if (i < n)
-          set(q, dofs_per_node * i + 3, r(h * (i + .5)));
+          set(q, dofs_per_node * i + 3, r(place(i + .5)));
       }
       return q;
     }
@@ -158,6 +169,13 @@ namespace taut
       Shape value, slope, curvature; ///< derivatives with respect to s
     };
 
+    /// Over the mean length of an element: the length of one; what takes positions, and what takes
+    /// the second vector of a node, from it to an element of mean length [1].
+    struct Ratios
+    {
+      std::vector<double> length, of_position, of_middle;
+    };
+
     /// An integration point of an element.
     struct Point
     {
@@ -170,6 +188,9 @@ namespace taut
     using LocalMatrix = std::array<Local, element_dofs>;
 
     Shapes shapes(double xi) const;
+    Shapes shapes(double xi, unsigned int e) const;
+    Point in_element(const Point &p, unsigned int e) const;
+    void set_points();
     Local local(const std::vector<double> &q, unsigned int e) const;
     ElementBatch batch(const std::vector<double> &q, unsigned int first) const;
     std::array<double, 8> end_weights(unsigned int first) const;
@@ -179,8 +200,8 @@ namespace taut
     template <typename Integrand>
     void integrate_force(std::vector<double> &f, const Integrand &integrand) const;
     void add(const LocalMatrix &K, unsigned int e, SymmetricMatrix &A) const;
-    void add_axial_tangent(const Local &x, bool definite, LocalMatrix &K) const;
-    void add_bending_tangent(const Local &x, bool definite, LocalMatrix &K) const;
+    void add_axial_tangent(const Local &x, unsigned int e, bool definite, LocalMatrix &K) const;
+    void add_bending_tangent(const Local &x, unsigned int e, bool definite, LocalMatrix &K) const;
     std::pair<unsigned int, double> find(double s) const;
     LinearForm form(double s, const Coordinates &direction, bool slope) const;
     Coordinates vector(const std::vector<double> &q, double s, bool slope) const;
@@ -193,8 +214,10 @@ namespace taut
 
     CableElement kind;
     unsigned int n;
-    double h; ///< [m]
+    double h, shortest; ///< [m]
     CableSection material;
+    std::vector<double> nodes; ///< empty if the elements are equal [m]
+    Ratios ratios;             ///< with ones behind the last element, for a batch
     std::vector<Point> axial_points, bending_points;
     std::vector<Point> inner_axial_points; ///< not at the ends of elements
     double end_weight = 0.;                ///< of an axial point at an end, if there is one [m]

@@ -30,6 +30,8 @@ namespace taut
       place,
       bending_stiffness,
       axial_damping,
+      is_straight,
+      disturbance,
       n_entries
     };
 

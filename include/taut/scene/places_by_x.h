@@ -4,6 +4,7 @@
 
 #include <taut/scene/body_type.h>
 
+#include <memory>
 #include <vector>
 
 namespace taut
@@ -19,6 +20,13 @@ namespace taut
     /// Throws UserError for an x that the body does not have, or has more than once.
     virtual std::vector<double> places_at(const std::vector<double> &x,
                                           const BodySetting &setting) const = 0;
+
+    /// The same type, with bodies that have nodes at these places [m]: those of loads and links, in
+    /// any order. nullptr: bodies have no nodes that could be moved.
+    virtual std::shared_ptr<const BodyType> divided(const std::vector<double> &) const
+    {
+      return nullptr;
+    }
   };
 } // namespace taut
 

@@ -15,6 +15,8 @@ namespace taut
    * another tension and the ends of the wire. Their distance must be below same_place(). It must
    * also be below 1e-6 of the place, as for digits that were not written, or below 1e-8 of the
    * length of the wire.
+   *
+   * Bodies with PlacesByX::divided() get nodes at fixed link ends and point loads.
    */
   void share_places(Scene &scene);
 } // namespace taut

@@ -53,6 +53,8 @@ namespace taut
       double place = 0.;             ///< along the body [m]
       double bending_stiffness = 0.; ///< [N m^2]
       double axial_damping = 0.;     ///< [N s]
+      bool is_straight = false;      ///< it pushes along a line, which only a disturbance ends
+      double disturbance = 0.;       ///< size of that [m]
     };
 
     /// True if the body is slack at a displacement U [m, rad] from the undeformed body; then fills
