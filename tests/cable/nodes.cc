@@ -86,7 +86,6 @@ Time: End = 0
   {
     double error = 0.;
     Session session(scene, {std::string("Body rope/Element=") + element});
-    session.simulation();
     session.run(
         [&](const StepView &step)
         {
