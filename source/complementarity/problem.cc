@@ -13,6 +13,25 @@ namespace taut
     /// Entries of F below this, relative to the largest one, are rounding.
     constexpr double rounding = 1e-16;
 
+    /// Part of the loads below which multipliers carry none of them.
+    constexpr double balanced = 1e-3;
+
+    /// Largest multiplier that carries the terms of a load on a null space vector alone; 0 if
+    /// unknown.
+    double size_of_loads(const MixedComplementarityProblem &problem)
+    {
+      double result = 0.;
+      for (std::size_t k = 0; k < problem.null_space_terms.size(); ++k)
+      {
+        double largest = 0.;
+        for (const double value : problem.null_space[k].value)
+          largest = std::max(largest, std::abs(value));
+        if (largest > 0.)
+          result = std::max(result, problem.null_space_terms[k] / largest);
+      }
+      return result;
+    }
+
     double relative(double numerator, double denominator)
     {
       if (numerator == 0.)
@@ -132,6 +151,9 @@ namespace taut
     double largest = 0.;
     for (const double value : multiplier)
       largest = std::max(largest, std::abs(value));
+    const double loads = size_of_loads(problem);
+    if (largest < balanced * loads)
+      largest = loads;
     if (largest > 0.)
     {
       const std::vector<char> in_null_space = problem.rows_in_null_space();
@@ -166,6 +188,8 @@ namespace taut
         balance -= resisted;
         scale += std::abs(resisted);
       }
+      if (!problem.null_space_terms.empty())
+        scale += problem.null_space_terms[k];
       const LinearForm &vector = problem.null_space[k];
       for (std::size_t e = 0; e < vector.index.size(); ++e)
       {

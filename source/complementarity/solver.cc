@@ -3,6 +3,7 @@
 #include <taut/base/text.h>
 #include <taut/complementarity/solver.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -10,6 +11,10 @@ namespace taut
 {
   namespace
   {
+    /// By how much multipliers, with the weights of the energy, may change where their part along
+    /// repeated rows is taken out: this costs three digits of twelve.
+    constexpr double most_cancellation = 1e3;
+
     std::string list(const std::string &what, const std::vector<std::size_t> &indices)
     {
       std::ostringstream text;
@@ -42,8 +47,29 @@ namespace taut
         result.solution.closed.assign(problem.size(), problem.n_null_space() > 0);
       result.iterations = 0;
       result.used_fallback = false;
-      if (!use_newton || !solve_with_newton(problem, matrix))
-        solve_energy_ordered(problem, matrix);
+      // A state satisfies its conditions to 1e-9, and so do the rows that follow from them.
+      const double exact = is_linearised ? 1e-8 : options.linear_tolerance;
+      if (!repeated.empty() && !has_sought)
+      {
+        has_sought = true;
+        repeated.find(problem, matrix, exact);
+      }
+      for (;;)
+      {
+        const MixedComplementarityProblem &solved =
+            repeated.empty() ? problem : repeated.without(problem);
+        const bool is_solved = use_newton && solve_with_newton(solved, matrix);
+        if (!has_sought && (!use_newton || newton.has_dependent_rows()))
+        {
+          has_sought = true;
+          if (repeated.find(problem, matrix, exact))
+            continue;
+        }
+        if (!is_solved)
+          solve_energy_ordered(solved, matrix);
+        if (spread_over_repeated_rows(problem, matrix))
+          break;
+      }
     }
     catch (...)
     {
@@ -71,6 +97,37 @@ namespace taut
       throw ContradictoryRows("nothing that moves could close the gap of " + list("row", violated) +
                                   ": connect them to something that is free, or change the gaps",
                               violated);
+  }
+
+  /// False if rows that take no part are left with gaps, so that they do not repeat others.
+  bool ComplementaritySolver::spread_over_repeated_rows(const MixedComplementarityProblem &problem,
+                                                        const ComplementarityOperator &matrix)
+  {
+    if (repeated.empty())
+      return true;
+    MixedComplementaritySolution &solution = result.solution;
+    const auto size = [&]
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < problem.size(); ++i)
+        sum += matrix.diagonal(i) * std::pow(solution.multiplier[i], 2);
+      return std::sqrt(sum);
+    };
+    const double before = size();
+    repeated.spread(problem, matrix, solution.multiplier);
+    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
+    if (is_linearised)
+      return true;
+    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
+    // What is much larger on one side has lost the digits of the other one.
+    const double after = size();
+    bool is_exact = std::max(before, after) <= most_cancellation * std::min(before, after);
+    for (std::size_t i = 0; i < problem.size(); ++i)
+      is_exact = is_exact && !(problem.cones[i].is_free() &&
+                               std::fabs(solution.gap[i]) > options.linear_tolerance * terms[i]);
+    if (!is_exact)
+      repeated = {};
+    return is_exact;
   }
 
   bool ComplementaritySolver::solve_with_newton(const MixedComplementarityProblem &problem,

@@ -8,8 +8,11 @@
 #include <taut/scene/entries.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace taut
 {
@@ -117,10 +120,13 @@ namespace taut
 
   namespace
   {
-    /// Largest distance of the two places of a ball joint over the length of the shorter body. This
-    /// distance is an unbalanced lever of the force, and the error of direction of a body in rad.
-    /// Places that are written with three digits have this error.
+    /// Largest distance of the two places of a ball joint that a start closes, over the length of
+    /// the shorter body. This distance is an unbalanced lever of the force, and the error of
+    /// direction of a body in rad. Places that are written with three digits have this error.
     constexpr double same_place = 1e-3;
+
+    /// The same up to which the distance is rounding of the places.
+    constexpr double rounding_of_places = 1e-9;
 
     /// Largest distance of two points over their distance from the origin: both places should be
     /// written alike.
@@ -188,43 +194,118 @@ namespace taut
     /// Only a ball joint makes joints along several directions between two places in one section.
     bool are_one_ball_joint(const Link &a, const Link &b)
     {
-      return !a.origin.empty() && a.origin == b.origin && a.kind == LinkKind::joint &&
+      return !a.origin.empty() && a.origin == b.origin && a.kind == LinkKind::joint && !a.turns &&
              b.kind == LinkKind::joint && is_same(a.from, b.from) && is_same(a.to, b.to);
+    }
+
+    bool ties_places(const Scene &scene, const std::size_t link)
+    {
+      const std::vector<Link> &all = scene.links;
+      return (link > 0 && are_one_ball_joint(all[link], all[link - 1])) ||
+             (link + 1 < all.size() && are_one_ball_joint(all[link], all[link + 1]));
+    }
+
+    /// Where the two places of a link that ties them are.
+    struct TiedPlaces
+    {
+      Coordinates from, to;
+      bool are_points = false;
+      double rounding = 0., most = 0.; ///< distances that are rounding, and that a start closes [m]
+
+      Coordinates between() const { return to - from; }
+    };
+
+    TiedPlaces tied_places(const Scene &scene, const SceneBodies &bodies, const std::size_t i)
+    {
+      const Link &link = scene.links[i];
+      TiedPlaces result;
+      const auto has_place = [](const Attachment &end)
+      { return end.kind != Attachment::Kind::ground || end.has_place; };
+      if (!ties_places(scene, i) || !has_place(link.from) || !has_place(link.to))
+        return result;
+      result.from = bodies.position(scene, link.from);
+      result.to = bodies.position(scene, link.to);
+      if (result.from == result.to)
+        return result;
+      const double from_origin = std::max(norm(result.from), norm(result.to));
+      result.are_points = is_point(link.from) && is_point(link.to);
+      const double length = result.are_points ? from_origin
+                                              : std::min(length_of(scene, bodies, link.from),
+                                                         length_of(scene, bodies, link.to));
+      result.rounding = rounding_of_places * (std::isinf(length) ? from_origin : length);
+      result.most = (result.are_points ? written_alike : same_place) * length;
+      return result;
     }
   } // namespace
 
+  Coordinates distance_of_tie(const Scene &scene, const SceneBodies &bodies, const std::size_t link)
+  {
+    const TiedPlaces places = tied_places(scene, bodies, link);
+    return norm(places.between()) <= places.rounding ? Coordinates() : places.between();
+  }
+
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies)
   {
-    for (std::size_t i = 0; i + 1 < scene.links.size(); ++i)
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
       const Link &link = scene.links[i];
-      const bool is_first = i == 0 || !are_one_ball_joint(scene.links[i - 1], link);
-      const auto has_place = [](const Attachment &end)
-      { return end.kind != Attachment::Kind::ground || end.has_place; };
-      if (!is_first || !are_one_ball_joint(link, scene.links[i + 1]) || !has_place(link.from) ||
-          !has_place(link.to))
+      const TiedPlaces places = tied_places(scene, bodies, i);
+      const double distance = norm(places.between());
+      const bool closes = scene.start == Start::equilibrium;
+      if (distance <= (closes ? places.most : places.rounding))
         continue;
-      const bool are_points = is_point(link.from) && is_point(link.to);
-      const Coordinates from = bodies.position(scene, link.from),
-                        to = bodies.position(scene, link.to);
-      // What the gaps of its joints do not say.
-      Coordinates between = to - from;
-      for (std::size_t k = i; k < scene.links.size() && are_one_ball_joint(scene.links[k], link);
-           ++k)
-        between = add_scaled(between, -scene.links[k].gap, scene.links[k].direction);
-      const double distance = norm(between),
-                   least = are_points ? written_alike * std::max(norm(from), norm(to))
-                                      : same_place * std::min(length_of(scene, bodies, link.from),
-                                                              length_of(scene, bodies, link.to));
-      if (std::isinf(least) || distance <= least)
-        continue;
-      throw EntryError(path(link.origin, "To"),
-                       to_text("link '", link.name, "' is of a ball joint, whose places are ",
-                               distance, " m apart before anything moves: From is at ", from,
-                               ", To at ", to, ". Bring them together, to ", least, " m (",
-                               are_points ? "a millionth of their distance from the origin"
-                                          : "a thousandth of the shorter body",
-                               "), or take a joint along each direction"));
+      throw EntryError(
+          path(link.origin, "To"),
+          to_text("link '", link.name, "' is of a ball joint, whose places are ", distance,
+                  " m apart before anything moves: From is at ", places.from, ", To at ", places.to,
+                  ". Bring them together",
+                  closes
+                      ? to_text(", to ", places.most, " m (",
+                                places.are_points ? "a millionth of their distance from the origin"
+                                                  : "a thousandth of the shorter body",
+                                "), or take")
+                      : std::string(", start from 'equilibrium', which closes up to a thousandth "
+                                    "of the shorter body, or take"),
+                  " a joint along each direction"));
     }
+  }
+
+  std::vector<std::string> warnings_of_joints(const Scene &scene)
+  {
+    // The joints at each place of each two bodies.
+    using Place = std::array<double, 6>;
+    std::map<std::pair<std::size_t, std::size_t>, std::map<Place, std::vector<std::string>>> all;
+    const auto is_rigid = [&](const Attachment &end) {
+      return end.kind == Attachment::Kind::body &&
+             scene.bodies[end.index].type_name == "rigid body";
+    };
+    for (const Link &link : scene.links)
+    {
+      if (link.kind != LinkKind::joint || !link.rigid() || link.turns || link.rotational ||
+          !is_rigid(link.from) || !is_rigid(link.to))
+        continue;
+      const bool is_swapped = link.from.index > link.to.index;
+      const Attachment &a = is_swapped ? link.to : link.from, &b = is_swapped ? link.from : link.to;
+      all[{a.index, b.index}][{a.place.x, a.place.y, a.place.z, b.place.x, b.place.y, b.place.z}]
+          .push_back(link.name);
+    }
+    std::vector<std::string> result;
+    for (const auto &[bodies, places] : all)
+    {
+      std::string names;
+      for (const auto &[place, joints] : places)
+        for (const std::string &name : joints)
+          if (joints.size() < 3 && places.size() > 1)
+            names += (names.empty() ? "'" : ", '") + name + "'";
+      if (!names.empty())
+        result.push_back("joints " + names + " hold the rigid bodies '" +
+                         scene.bodies[bodies.first].name + "' and '" +
+                         scene.bodies[bodies.second].name +
+                         "' at a second place along directions that stay in space while the bodies "
+                         "turn. This is a hinge, or a clamp, up to a mirror image only: where such "
+                         "a direction meets the line between both places, the bodies part. Take a "
+                         "link of Type 'hinge' or 'universal joint'");
+    }
+    return result;
   }
 } // namespace taut

@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/cable/cable.h>
+#include <taut/model/check_joints.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/surface_constraints.h>
 #include <taut/scene/travel.h>
@@ -358,6 +359,7 @@ namespace taut
         constraint.geometry = turning_direction(scene, bodies, link);
       else
         append_link(bodies, link, link.to, constraint.terms);
+      constraint.gap += dot(link.direction, distance_of_tie(scene, bodies, i));
       constraints.push_back(std::move(constraint));
     }
     for (const Link &link : scene.links)

@@ -75,7 +75,7 @@ namespace taut
       std::string type = "joint", from = "ground", to, stiffness = "rigid", profile = "0";
       std::string law = "linear", law_points, law_formula;
       double law_range = 0.;
-      std::vector<double> direction, axis;
+      std::vector<double> direction, axis, second_axis;
       bool rotational = false, find_length = false, find_direction = false, turns = false,
            straight = false, faster_than_waves = false;
       double damping = 0., gap = 0., length = 0.;

@@ -9,6 +9,7 @@
 #include <taut/scene/travel.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
@@ -20,21 +21,30 @@ namespace taut
 
   namespace
   {
-    bool is_ball_joint(const Network::LinkItem &item)
+    bool has_axis(const Network::LinkItem &item)
     {
-      return item.type == "ball joint";
+      return item.type == "hinge" || item.type == "universal joint";
     }
 
-    /// Throws EntryError for entries that a ball joint does not have.
+    bool is_ball_joint(const Network::LinkItem &item)
+    {
+      return item.type == "ball joint" || has_axis(item);
+    }
+
+    /// Throws EntryError for entries that a ball joint, hinge or universal joint does not have.
     void check_ball_joint(const Network::LinkItem &item, const std::string &title)
     {
-      for (const auto &[given, entry] : {std::pair(!item.direction.empty(), "/Direction"),
-                                         {!item.axis.empty(), "/Axis"},
-                                         {item.rotational, "/Rotational"},
-                                         {item.gap != 0., "/Gap"}})
+      for (const auto &[given, entry] :
+           {std::pair(!item.direction.empty(), "/Direction"),
+            {!item.axis.empty() && !has_axis(item), "/Axis"},
+            {item.rotational, "/Rotational"},
+            {item.gap != 0., "/Gap"},
+            {item.stiffness != "rigid" && has_axis(item), "/Stiffness"}})
         if (given)
-          throw EntryError(title + entry, "a ball joint holds one place to another along x, y and "
-                                          "z, and has none; leave it out, or take a joint");
+          throw EntryError(title + entry,
+                           "a " + item.type +
+                               " holds one place to another along x, y and z, and has none; leave "
+                               "it out, or take a joint");
     }
 
     /// Whether an end is at a body in the plane; the surface of the body says so.
@@ -69,6 +79,62 @@ namespace taut
             *end = Attachment();
         if (can_move(scene, link.from, false, axis) || can_move(scene, link.to, false, axis))
           scene.links.push_back(link);
+      }
+    }
+
+    /// The end of a rod that an axis of a joint is the arm of. With arms of sqrt(2) m, at a right
+    /// angle, the force of the rod in N is the moment about the normal of both in N m.
+    Attachment arm(Attachment end, const Attachment &other, const Coordinates &axis)
+    {
+      if (end.kind == Attachment::Kind::ground && !end.has_place)
+        end.place = other.place;
+      end.has_place = true;
+      end.place = add_scaled(end.place, std::sqrt(2.), axis);
+      return end;
+    }
+
+    /// The rows of a hinge or universal joint beside those of its ball joint: rods from the axis of
+    /// one body to what is across it on the other one. Lengths of rods are products of vectors of
+    /// both bodies, so that they hold however far the bodies turn.
+    void add_axes(const Network::LinkItem &item, const Link &all, Scene &scene)
+    {
+      const auto axis_of = [&](const std::vector<double> &axis, const char *const entry) {
+        return axis.empty() ? Coordinates{0., 0., 1.} : parse_direction(axis, all.origin + entry);
+      };
+      const Coordinates axis = axis_of(item.axis, "/Axis");
+      std::vector<Coordinates> across;
+      if (item.type == "hinge")
+      {
+        const Coordinates other =
+            std::fabs(axis.x) < .6 ? Coordinates{1., 0., 0.} : Coordinates{0., 1., 0.};
+        across.push_back(unit(cross(axis, other), all.origin + "/Axis"));
+        across.push_back(cross(axis, across[0]));
+      }
+      else
+      {
+        /// Cosine of an angle that counts as a right one, of numbers with five digits.
+        constexpr double right_angle = 1e-5;
+        across.push_back(axis_of(item.second_axis, "/Second axis"));
+        if (!(std::fabs(dot(axis, across[0])) <= right_angle))
+          throw EntryError(all.origin + "/Second axis",
+                           to_text("it is at a cosine of ", dot(axis, across[0]),
+                                   " to Axis; those of a universal joint are at a right angle"));
+      }
+      for (const auto &[end, entry] : {std::pair(&all.from, "/From"), {&all.to, "/To"}})
+        if (end->kind != Attachment::Kind::ground &&
+            !(end->kind == Attachment::Kind::body &&
+              scene.bodies[end->index].type_name == "rigid body"))
+          throw EntryError(all.origin + entry, "a " + item.type +
+                                                   " is between rigid bodies, or a rigid body and "
+                                                   "the ground; take a ball joint");
+      for (std::size_t k = 0; k < across.size(); ++k)
+      {
+        Link rod = all;
+        rod.name += " across" + (across.size() > 1 ? " " + std::to_string(k + 1) : "");
+        rod.from = arm(all.from, all.to, axis);
+        rod.to = arm(all.to, all.from, across[k]);
+        rod.turns = true;
+        scene.links.push_back(rod);
       }
     }
 
@@ -181,6 +247,9 @@ namespace taut
                                                    : LinkKind::joint;
       if (is_ball_joint(item))
         check_ball_joint(item, title);
+      if (!item.second_axis.empty() && item.type != "universal joint")
+        throw EntryError(title + "/Second axis",
+                         "it is of a universal joint; leave it out, or take that");
       link.rotational = item.rotational;
       set_law(item, title, link);
       link.damping = item.damping;
@@ -317,6 +386,8 @@ namespace taut
         if (is_ball_joint(item))
         {
           add_ball_joint(link, scene);
+          if (has_axis(item))
+            add_axes(item, link, scene);
           continue;
         }
         set_direction(item, scene, title, link);

@@ -179,9 +179,13 @@ namespace taut
     prm.add_parameter("Type", type,
                       "'joint': holds its ends together. 'ball joint': does so along x, y and z, "
                       "as joints named '<name> x' and so on; what is at a body in the plane stays "
-                      "in that plane. 'stop': pushes them apart. 'dropper': pulls them together. "
+                      "in that plane. 'hinge': a ball joint of rigid bodies, or of one and the "
+                      "ground, that turns about the Axis only. 'universal joint': one that keeps "
+                      "the Axis of one body at a right angle to the Second axis of the other. "
+                      "'stop': pushes them apart. 'dropper': pulls them together. "
                       "'sliding contact': a stop whose second end moves on a wire or a cable",
-                      Selection("joint|ball joint|stop|dropper|sliding contact"));
+                      Selection("joint|ball joint|hinge|universal joint|stop|dropper|sliding "
+                                "contact"));
     prm.add_parameter(
         "From", from,
         "'ground', 'ground @ x, y, z', a mass, 'mass @ x, y' beside the centre of one that "
@@ -210,7 +214,12 @@ namespace taut
     prm.add_parameter("Rotational", rotational,
                       "Acts between slopes or rotations about Axis: moments and angular gaps");
     prm.add_parameter("Axis", axis,
-                      "Of a rotational link, 'x, y, z'; the length does not matter. Empty: z",
+                      "Of a rotational link, of a hinge, or of the From end of a universal joint, "
+                      "before anything moves, 'x, y, z'; the length does not matter. Empty: z",
+                      List(Double(), 0, 3));
+    prm.add_parameter("Second axis", second_axis,
+                      "Of the To end of a universal joint, before anything moves, 'x, y, z', at a "
+                      "right angle to the Axis",
                       List(Double(), 0, 3));
   }
 

@@ -269,6 +269,8 @@ namespace taut
     observed->begin();
     while (!observed->is_over())
       observed->advance();
+    if (has_time() && motion->start().repeated_joints.empty())
+      report_repeated_joints(links.names(motion->time_stepper().repeated_joints()));
     if (motion->n_repeated() > 0)
       log << motion->n_repeated() << " steps were repeated with a shorter one\n";
     if (observed->signal() == 0)

@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
 #include <taut/base/text.h>
+#include <taut/model/check_joints.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/output/line_constants.h>
@@ -66,10 +67,10 @@ namespace taut
                      '\n');
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
-    for (const std::string &warning : parameters.scene_warnings())
-      log << "Warning: " << warning << '\n';
-    for (const std::string &warning : warnings_of_unheld_wires(model))
-      log << "Warning: " << warning << '\n';
+    for (const auto &warnings :
+         {parameters.scene_warnings(), warnings_of_unheld_wires(model), warnings_of_joints(model)})
+      for (const std::string &warning : warnings)
+        log << "Warning: " << warning << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     const double end = n_steps() * parameters.step;
     if (has_time() && std::fabs(end - parameters.end_time) > 1e-6 * parameters.step)
@@ -160,6 +161,7 @@ namespace taut
                 slender->check_at_rest(displacement(start.reference, start.state, k));
           });
     }
+    report_repeated_joints(start.repeated_joints);
     BodyVectors at_start = start.reference.displacement;
     for (std::size_t k = 0; k < at_start.size(); ++k)
       at_start[k] = displacement(start.reference, start.state, k);
@@ -182,6 +184,13 @@ namespace taut
       if (some[i] && ++n <= most_named)
         names += (n > 1 ? ", '" : "'") + bodies.all_bodies()[i].name + "'";
     return names + (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
+  }
+
+  void Simulation::report_repeated_joints(const std::string &names) const
+  {
+    if (!names.empty())
+      log << "Joints repeat each other: " << names
+          << "; of all forces that move the bodies alike, theirs are those of least norm\n";
   }
 
   /// Reports bodies and links that are linearised at the start.

@@ -7,6 +7,12 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Part of its terms up to which the sum of some thousand loads is rounding.
+    constexpr double rounding_of_loads = 1e-13;
+  } // namespace
+
   ContactConditions::ContactConditions(const Structure &structure, const Constraints &constraints,
                                        const TurningConstraints &turning,
                                        const Reference &reference, const State &start)
@@ -30,6 +36,7 @@ namespace taut
     step = tau;
     problem.null_space.clear();
     problem.null_space_load.clear();
+    problem.null_space_terms.clear();
     problem.null_space_resistance.clear();
     solved.mode_amplitude.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -50,6 +57,10 @@ namespace taut
   {
     if (system.has_modes())
       system.set_modes(P, problem);
+    // Loads that cancel leave their rounding, which no contact may be able to carry.
+    for (std::size_t k = 0; k < problem.null_space_terms.size(); ++k)
+      if (std::fabs(problem.null_space_load[k]) <= rounding_of_loads * problem.null_space_terms[k])
+        problem.null_space_load[k] = 0.;
     if (constraints.size() == 0)
       return;
     gap_tracker.predict(before, system, P, prescribed.lift());

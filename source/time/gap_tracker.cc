@@ -13,6 +13,14 @@ namespace taut
     /// Part of the largest terms of a gap so far below which terms count as rest: motion that
     /// contacts stopped leaves rounding, which contradicts itself between constraints.
     constexpr double rest = 1e-3;
+
+    /// What the gap of a constraint rounds with. Gaps of surfaces are differences of coordinates
+    /// that are far larger, but exact.
+    double size_of_gap(const ConstraintData &constraint)
+    {
+      return std::fabs(constraint.gap) +
+             (constraint.contact == no_contact ? constraint.gap_size : 0.);
+    }
   } // namespace
 
   GapTracker::GapTracker(const Structure &structure, const Constraints &constraints,
@@ -150,15 +158,14 @@ namespace taut
   {
     const std::vector<double> terms = body_terms(U);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      gap_terms[i] = std::max(gap_terms[i], std::fabs(constraints[i].gap) + terms[i]);
+      gap_terms[i] = std::max(gap_terms[i], size_of_gap(constraints[i]) + terms[i]);
   }
 
   void GapTracker::count_motions(const BodyVectors &U)
   {
     const std::vector<double> terms = body_terms(U), moved = constraints.motions(U);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      largest_scale[i] =
-          std::max(largest_scale[i],
-                   terms[i] + (std::fabs(constraints[i].gap) + std::fabs(moved[i])) / rest);
+      largest_scale[i] = std::max(
+          largest_scale[i], terms[i] + (size_of_gap(constraints[i]) + std::fabs(moved[i])) / rest);
   }
 } // namespace taut

@@ -213,6 +213,7 @@ namespace taut
       result.reference.displacement = std::move(rest.displacement);
       state.multiplier = std::move(rest.multiplier);
       result.certificate = rest.certificate;
+      result.repeated_joints = constraints.names(rest.repeated_joints);
     }
     if (start == Start::given)
       structure.communicator().agree(

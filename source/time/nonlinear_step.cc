@@ -124,6 +124,7 @@ namespace taut
       else if (!own.turning.empty())
         step.equations().interface().update_moving();
       step.costs().lap(own.tangents_are_kept ? StepPart::moving_rows : StepPart::factors);
+      step.equations().begin_search();
       step.set_loads(state);
       own.nonlinear.prescribe(step.history().prescribed());
       own.loads = step.history().loads();
@@ -150,7 +151,7 @@ namespace taut
     void go_on() override
     {
       own.turn();
-      if (n > 1 && is_slow(change, before))
+      if (is_redundant() || (n > 1 && is_slow(change, before)))
       {
         own.tangents_are_kept = false;
         own.linearise(step.equations());
@@ -164,11 +165,14 @@ namespace taut
 
     bool accept() override
     {
-      own.tangents_are_kept = n <= most_with_a_kept_tangent;
+      own.tangents_are_kept = n <= most_with_a_kept_tangent && !is_redundant();
       return true;
     }
 
   private:
+    /// Joints repeat each other to rounding with tangents of their state only.
+    bool is_redundant() const { return !step.equations().repeated_rows().empty(); }
+
     NonlinearStep &own;
     Step &step;
     State &state;

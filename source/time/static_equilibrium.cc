@@ -139,6 +139,7 @@ namespace taut
       {
         U = start;
         is_first = true;
+        repeated = {};
         turning.begin(U);
       }
 
@@ -158,7 +159,9 @@ namespace taut
           return std::numeric_limits<double>::quiet_NaN();
         }
         is_first = false;
+        step->set_repeated_rows(repeated);
         state = step->solve();
+        repeated = step->repeated_rows();
         change = relative_change(step->bodies(), U, state.displacement);
         if (!turning.empty())
           change = std::max(change, turning.change(state));
@@ -352,6 +355,7 @@ namespace taut
       StaticState state; ///< solution
       double change = 0.;
       std::string gives_way, origin_of_unstable; ///< of the last equilibrium that is not stable
+      RepeatedRows repeated;                     ///< joints that repeat others at the first guess
       std::vector<double> motion_of_body; ///< of those of this rank, in the last iteration [m]
     };
   } // namespace

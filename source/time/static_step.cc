@@ -86,7 +86,9 @@ namespace taut
     find_increments();
     step.accept(state);
     refine();
-    return {state.U, state.multiplier, state.gap, state.geometric_gap, {}};
+    return {state.U,   state.multiplier,
+            state.gap, state.geometric_gap,
+            {},        repeated_rows().all_partners()};
   }
 
   void StaticStep::find_increments()
@@ -129,7 +131,7 @@ namespace taut
     const std::vector<double> &load = step.conditions().problem_of_step().null_space_load;
     for (std::size_t m = 0; m < G.size(); ++m)
     {
-      double sum = load[m], terms = 0.;
+      double sum = load[m], terms = step.conditions().problem_of_step().null_space_terms[m];
       for (std::size_t e = 0; e < G[m].index.size(); ++e)
       {
         const double force = G[m].value[e] * state.multiplier[G[m].index[e]];

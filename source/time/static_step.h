@@ -41,6 +41,10 @@ namespace taut
 
     const FactoredStructure &bodies() const { return step.equations().bodies(); }
 
+    /// Joints that repeat others, found by solve(), or before it by that of an earlier step.
+    const RepeatedRows &repeated_rows() const { return step.equations().repeated_rows(); }
+    void set_repeated_rows(const RepeatedRows &rows) { step.equations().set_repeated_rows(rows); }
+
   private:
     void find_increments();
     void fail_not_held(const BodyNotHeld &e) const;

@@ -189,7 +189,8 @@ namespace taut
     certificate.complementarity =
         own_conditions.residual(state, equations(), certificate.worst_constraint);
     certificate.drift = own_conditions.drift(state);
-    own_check.check_constraints(certificate);
+    own_check.check_constraints(certificate,
+                                equations().repeated_rows().partners(certificate.worst_constraint));
     own_check.check_balance(certificate, own_balance.residual());
     own_costs.lap(StepPart::certificate);
   }

@@ -35,21 +35,29 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      const bool is_one = e.rows().size() == 1;
-      fail((is_one ? "no force satisfies link " + constraints.names(e.rows()) +
-                         ": its ends are held where it does not let them be. Remove it, give it"
-                   : "the links " + constraints.names(e.rows()) +
-                         " contradict each other, or what holds their ends: no contact forces "
-                         "satisfy them all. Remove one of them, give one") +
-               " a finite stiffness, or check the initial gaps",
-           e.rows().empty() ? "" : constraints.origin(e.rows().front()));
+      fail_contradictory(e.rows());
     }
   }
 
-  void StepCheck::check_constraints(const Certificate &certificate) const
+  void StepCheck::fail_contradictory(const std::vector<std::size_t> &rows) const
+  {
+    const bool is_one = rows.size() == 1;
+    fail((is_one ? "no force satisfies link " + constraints.names(rows) +
+                       ": its ends are held where it does not let them be. Remove it, give it"
+                 : "the links " + constraints.names(rows) +
+                       " contradict each other, or what holds their ends: no contact forces "
+                       "satisfy them all. Remove one of them, give one") +
+             " a finite stiffness, or check the initial gaps",
+         rows.empty() ? "" : constraints.origin(rows.front()));
+  }
+
+  void StepCheck::check_constraints(const Certificate &certificate,
+                                    const std::vector<std::size_t> &partners) const
   {
     if (certificate.complementarity <= tolerance)
       return;
+    if (!partners.empty())
+      fail_contradictory(partners);
     fail(to_text("link '", constraints[certificate.worst_constraint].name,
                  "' misses the contact tolerance: residual ", certificate.complementarity, " > ",
                  tolerance, ". ", remedy()),

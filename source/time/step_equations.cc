@@ -150,6 +150,7 @@ namespace taut
     const auto &modes = solvers.rigid_body_modes();
     problem.null_space.assign(n_modes, {});
     problem.null_space_load.assign(n_modes, 0.);
+    problem.null_space_terms.assign(c.is_at_rest() ? n_modes : 0, 0.);
     problem.null_space_resistance.assign(c.is_at_rest() ? 0 : n_modes, 0.);
     for (std::size_t k = 0; k < modes.size(); ++k)
       for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
@@ -159,6 +160,9 @@ namespace taut
             std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
         if (!c.is_at_rest())
           problem.null_space_resistance[first_of_body[k] + v] = modes[k].resistance[v];
+        else
+          for (std::size_t i = 0; i < R.size(); ++i)
+            problem.null_space_terms[first_of_body[k] + v] += std::fabs(R[i] * P[k][i]);
       }
     MatrixEntries G;
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -171,6 +175,7 @@ namespace taut
       if (G.value[e] != 0.)
         problem.null_space[G.row[e]].add(G.column[e], G.value[e]);
     processes.sum(problem.null_space_load);
+    processes.sum(problem.null_space_terms);
     processes.sum(problem.null_space_resistance);
   }
 

@@ -61,12 +61,16 @@ namespace taut
       directions.push_back(at.direction);
       list[i].terms = at.terms;
       list[i].gap = at.gap;
-      const double size = std::max(at.distance, turning.length),
+      // Gaps, and motions across, round with the places of the ends.
+      const double size = list[i].gap_size = std::max(at.distance, turning.length),
                    stand_in = load * std::clamp(turned, least_part, 1.) / size,
                    geometric = is_check ? std::fabs(N[i]) / at.distance
                                         : std::max(0., -turning.sign * N[i]) / size;
       const auto add_spring = [&](const Coordinates &direction, const double stiffness)
-      { list.push_back(geometric_spring(all[i].name, all[i], direction, stiffness, motions[k])); };
+      {
+        list.push_back(geometric_spring(all[i].name, all[i], direction, stiffness, motions[k]));
+        list.back().gap_size = size;
+      };
       add_spring(at.direction, stand_in);
       for (const Coordinates &direction : across(at.direction))
         add_spring(direction, geometric + stand_in);

@@ -48,8 +48,9 @@ namespace taut
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
                                    const std::vector<double> &S, ComplementarityOperator &F,
-                                   const bool is_linear)
+                                   const bool linear)
   {
+    is_linear = linear;
     c = coefficients;
     step = tau;
     softening.prepare(c, S, F, is_linear);
@@ -144,6 +145,8 @@ namespace taut
   /// Solves for P - p.
   void VelocityProjection::solve(const ContactConditions &conditions, const State &state)
   {
+    if (!is_linear)
+      complementarity.begin_search();
     const auto find = [&](std::vector<double> &impulses)
     {
       impulses = complementarity.solve(problem, masses.interface().matrix()).solution.multiplier;

@@ -72,7 +72,7 @@ TEST(CableJoints, ball_joints_of_solids_hold_one_place)
           name + ": Type = solid; Dimension = 3; Young's modulus = 1e6; Density = 10\n" + name +
           "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 2, 1, 2 : " + corners + "\n";
     }
-    return error_of("Start = undeformed\nTime: End = 0\n" + bodies +
+    return error_of("Start = equilibrium\nTime: End = 0\n" + bodies +
                     "Mass lamp: Position = 4, 1; Motions = x, y, z; Mass = 1\n"
                     "Link pin: Type = ball joint; From = " +
                     first + "; To = " + to);
@@ -96,7 +96,9 @@ TEST(CableJoints, ball_joints_of_masses_hold_one_place)
     return error_of("Start = given\nTime: End = 0\n" + masses +
                     "Link tie: Type = ball joint; From = a; To = " + to);
   };
-  EXPECT_EQ(joined("3, 4.000004", "b"), "");
+  // Up to a billionth of the distance from the origin is rounding.
+  EXPECT_EQ(joined("3, 4.000000004", "b"), "");
+  expect(joined("3, 4.000004", "b"), {"Link tie/To", "4e-06 m apart", "start from 'equilibrium'"});
   expect(joined("3, 4, 0.01", "b"), {"Link tie/To", "0.01 m apart", "From is at 3, 4, 0",
                                      "To at 3, 4, 0.01", "from the origin"});
   EXPECT_EQ(joined("0, 0", "ground @ 3, 4"), "");
@@ -140,5 +142,32 @@ Time: Step = 1e-3; End = 1
     figure("mass below a vertical cable, error of its place", error, "m");
     EXPECT_LT(error, 2e-3);
     EXPECT_LT(beside, 1e-8);
+  }
+}
+
+// The start closes what a ball joint is apart. Expected: the mass is where the end of its cable
+// hangs, 2.9 mm lower, and stretches that by 98.1 N over 1e6 N and the weight of the cable.
+TEST(CableJoints, ball_joint_offset)
+{
+  for (const double apart : {2.9e-3, -1.3e-3})
+  {
+    const double length = 3. + apart, EA = 1e6, weight = .01 * 9.81 * length;
+    double sunk = 0., gap = 1.;
+    verification::run_scene(
+        "Gravity = 0, -9.81, 0; Start = equilibrium\nTime: End = 0\n"
+        "Body c: Type = cable; From = 0, 3; To = 0, 0; Axial stiffness = 1e6; Mass per length = "
+        "0.01; Elements = 4; Element = bar; Held ends = from; Unstressed length = " +
+            verification::number(length) +
+            "\nMass m: Position = 0, 0; Motions = x, y, z; Mass = 10\n"
+            "Link j: Type = ball joint; From = c @ " +
+            verification::number(length) + ", 0; To = m\n",
+        {},
+        [&](const StepView &view)
+        {
+          sunk = -verification::displacement(view, verification::point_of_mass(view, 0));
+          gap = verification::largest(view.state.geometric_gap);
+        });
+    EXPECT_NEAR(sunk, apart + (98.1 + .5 * weight) / EA * length, 1e-7);
+    EXPECT_LT(gap, 1e-12);
   }
 }

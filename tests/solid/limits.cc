@@ -22,6 +22,37 @@ TEST(SolidLimits, a_gap_that_rounds_starts_closed)
   EXPECT_TRUE(has(deep, "starts with a gap of -1e-07 m")) << deep;
 }
 
+// Claim: a block whose weight its traction carries rests on what it touches. Expected: no force, as
+// the sum of the loads is 0.
+TEST(SolidLimits, balanced_block)
+{
+  const std::string elastic = "Type = solid; Young's modulus = 1e8; Poisson's ratio = 0.3; "
+                              "Density = 1000; ",
+                    cells = "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = ",
+                    plane = "Contact c: Slave = b: 2; Obstacle = plane\n";
+  const Ran block = run("Gravity = 0, -9.81\nBody b: " + elastic +
+                        "Symmetry boundaries = 0; Traction = 3: 0, 9810\nBody b" + cells +
+                        "6, 4 : 0, 0 : 1, 1\n" + plane + at_rest);
+  EXPECT_EQ(block.error, "");
+  for (const double force : block.forces)
+    EXPECT_LT(std::fabs(force), 1e-8 * 9810.);
+
+  // Two blocks, the upper one held up by its traction; the lower one stands on the floor, stretched
+  // by the load at its top that carries a third of it.
+  const Ran stacked =
+      run("Gravity = 0, -9.81\nBody b: " + elastic +
+          "Symmetry boundaries = 0; Traction = 3: 0, 3270\nBody b" + cells +
+          "5, 3 : 0, 0 : 1, 1\nBody u: " + elastic +
+          "Symmetry boundaries = 0; Traction = 3: 0, 4905\nBody u" + cells +
+          "7, 2 : 0, 1 : 1, 1.5\n" + plane + "Contact d: Slave = u: 2; Master = b: 3\n" + at_rest);
+  EXPECT_EQ(stacked.error, "");
+  double sums[2] = {0., 0.};
+  for (std::size_t i = 0; i < stacked.forces.size(); ++i)
+    sums[i < 6 ? 0 : 1] += stacked.forces[i];
+  EXPECT_NEAR(sums[0], 9810. - 3270., 1e-6 * 9810.);
+  EXPECT_NEAR(sums[1], 0., 1e-6 * 9810.);
+}
+
 // Claim: two whole discs, and balls, meet by nodes on faces. Expected: of each node the distance to
 // the other circle, but for its facets, and the normal of the circle but for half of their angle.
 TEST(SolidLimits, whole_discs_and_balls_take_nodes_to_faces)

@@ -366,6 +366,39 @@ namespace
     }
   }
 
+  // Claim: bilateral rows that repeat others get the multipliers of least norm, whatever the sizes
+  // of F, also beside rows that open. Expected: with B = (1 0; 0 1; 1 2; 3 0) the last row opens,
+  // and z = (1, 2, -1) is across N with B N = -(F of the two motions)^-1 u.
+  TEST(complementarity, rows_that_repeat_others_have_the_least_multipliers)
+  {
+    const double B[4][2] = {{1., 0.}, {0., 1.}, {1., 2.}, {3., 0.}}, u[2] = {.3, -.7};
+    for (const std::string method : {"semismooth Newton", "energy-ordered"})
+      for (const double softness : {1., 1e-6, 1e6})
+      {
+        DenseOperator F(4);
+        const double A[2] = {softness, 7. * softness};
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t j = 0; j <= i; ++j)
+            F.set(i, j, B[i][0] * A[0] * B[j][0] + B[i][1] * A[1] * B[j][1]);
+        MixedComplementarityProblem all;
+        all.cones = {Cone::free(), Cone::free(), Cone::free(), Cone::half_line()};
+        for (const auto &row : B)
+          all.free_gap.push_back(row[0] * u[0] + row[1] * u[1]);
+        all.free_gap[3] += 1.;
+        ComplementaritySolver solver(method);
+        for (int repetition = 0; repetition < 2; ++repetition)
+        {
+          const std::vector<double> N = solver.solve(all, F).solution.multiplier;
+          EXPECT_NEAR(A[0] * (N[0] + N[2]), -u[0], 1e-12);
+          EXPECT_NEAR(A[1] * (N[1] + 2. * N[2]), -u[1], 1e-12);
+          EXPECT_NEAR(softness * (N[0] + 2. * N[1] - N[2]), 0., 1e-12);
+          EXPECT_EQ(N[3], 0.);
+        }
+        EXPECT_EQ(solver.repeated_rows().partners(1), (std::vector<std::size_t>{0, 1, 2}));
+        EXPECT_TRUE(solver.repeated_rows().partners(3).empty());
+      }
+  }
+
   TEST(complementarity, contradictory_rows_are_not_hidden_by_a_coarse_tolerance_of_the_solves)
   {
     // Multipliers of 1e9 make any gap small compared with F N: growth must be seen, too.

@@ -50,6 +50,45 @@ TEST(TurningStatics, weight_on_two_ropes)
       }
 }
 
+// Rigid ropes to a mass that is where they hold it. Expected: the forces that balance its load, by
+// Cramer's rule, and no motion. Lengths are given to the last digit.
+TEST(TurningStatics, rigid_ropes_at_their_answer)
+{
+  // In the plane: two ropes under 700 N.
+  const auto tied =
+      [](const std::vector<Coordinates> &anchors, const Coordinates &at, const double weight)
+  {
+    Scene scene = {{{weight / g, at, {}}}, {}};
+    for (const Coordinates &anchor : anchors)
+      scene.links.push_back(rope("ground @ " + text(anchor), "m0", norm(anchor - at)));
+    return at_rest(scene);
+  };
+  const Motion plane = tied({{-2., 3., 0.}, {3., 4., 0.}}, {}, 700.);
+  EXPECT_NEAR(plane.multiplier[0], 445.4, .05);
+  EXPECT_NEAR(plane.multiplier[1], 411.8, .05);
+  EXPECT_LT(norm(plane.place[0]), 1e-9);
+
+  // In space, at three sizes.
+  for (const double size : {1e-3, 1., 1e3})
+  {
+    const std::vector<Coordinates> anchors = {{-2. * size, 3. * size, .4 * size},
+                                              {2.5 * size, 4. * size, 1.7 * size},
+                                              {.3 * size, 2. * size, -3. * size}};
+    const Coordinates at = {.21 * size, -.13 * size, .07 * size};
+    const double weight = 30.;
+    const Motion space = tied(anchors, at, weight);
+    Coordinates d[3];
+    for (int i = 0; i < 3; ++i)
+      d[i] = add_scaled({}, 1. / norm(anchors[i] - at), anchors[i] - at);
+    const double det = dot(d[0], cross(d[1], d[2]));
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(space.multiplier[i], weight * cross(d[(i + 1) % 3], d[(i + 2) % 3]).y / det,
+                  1e-9 * weight)
+          << size;
+    EXPECT_LT(norm(space.place[0] - at), 1e-9 * size);
+  }
+}
+
 TEST(TurningStatics, weight_on_one_rope_hangs_down)
 {
   for (const double degrees : {10., 90., 130.})

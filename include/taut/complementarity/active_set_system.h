@@ -41,6 +41,9 @@ namespace taut
                   const std::vector<std::size_t> &set, double tolerance,
                   MixedComplementaritySolution &solution, std::vector<double> &terms);
 
+    /// Whether the last solve() found rows of the set to be dependent, without a null space.
+    bool has_dependent_rows() const { return shift != 0.; }
+
   private:
     void start(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                const std::vector<std::size_t> &set, MixedComplementaritySolution &solution,

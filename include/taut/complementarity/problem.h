@@ -44,6 +44,10 @@ namespace taut
     /// e, n_null_space(): load on each null space vector, which G N has to balance [N, N m].
     std::vector<double> null_space_load;
 
+    /// n_null_space(), or empty: magnitude of the terms that e was summed from, to which its
+    /// rounding is relative [N, N m].
+    std::vector<double> null_space_terms;
+
     /// Diagonal of E, n_null_space() or empty for zeros: the resistance to each null space vector,
     /// the inertia of the body in a step [N/m, N m/rad].
     std::vector<double> null_space_resistance;
@@ -107,7 +111,8 @@ namespace taut
   /**
    * The positive factor w_i that makes a multiplier comparable with a gap in min(w_i N_i, D_i):
    * F_ii. The diagonal of F of a floating body depends on the choice of a pseudo-inverse and may
-   * vanish. Rows that a null space vector moves therefore have max(F_ii, s_i / max_j |N_j|).
+   * vanish. Rows that a null space vector moves therefore have max(F_ii, s_i / max_j |N_j|). Where
+   * loads cancel, so that no N_j is more than a thousandth of their terms, these take its place.
    */
   void multiplier_weights(const MixedComplementarityProblem &problem,
                           const ComplementarityOperator &matrix,
@@ -124,8 +129,8 @@ namespace taut
     /// |min(w_i N_i, D_i)| / s_i on unilateral rows, |D_i| / s_i on bilateral rows.
     std::vector<double> rows;
 
-    /// |G N - E alpha + e|_k / (|e_k| + E_k |alpha_k| + sum_i |G_ki| (|N_i| + s_i / w_i)):
-    /// multipliers are known to rounding of s_i / w_i.
+    /// |G N - E alpha + e|_k / (|e_k| + its terms + E_k |alpha_k| + sum_i |G_ki| (|N_i| + s_i /
+    /// w_i)): multipliers are known to rounding of s_i / w_i.
     std::vector<double> null_space;
 
     /// The largest of all entries.

@@ -41,6 +41,9 @@ namespace taut
     unsigned int n_iterations() const { return iterations; }
     const ComplementarityResidual &residual() const { return final_residual; }
 
+    /// Whether rows of the last active set may be dependent.
+    bool has_dependent_rows() const { return system.has_dependent_rows(); }
+
   private:
     void collect_set(const MixedComplementarityProblem &problem,
                      const ComplementarityOperator &matrix, MixedComplementaritySolution &solution);

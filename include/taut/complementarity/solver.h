@@ -3,6 +3,7 @@
 #define taut_solver_h
 
 #include <taut/complementarity/energy_ordered.h>
+#include <taut/complementarity/repeated_rows.h>
 #include <taut/complementarity/semismooth_newton.h>
 
 #include <string>
@@ -28,7 +29,8 @@ namespace taut
   /**
    * Solves a sequence of mixed complementarity problems, one per step of a run. Each starts from
    * the active set of the problem before. A problem with bilateral rows only takes one linear
-   * solve, and so does a problem whose active set has not changed.
+   * solve, and so does a problem whose active set has not changed. Bilateral rows that repeat
+   * others get multipliers of least norm, see RepeatedRows.
    */
   class ComplementaritySolver
   {
@@ -55,9 +57,29 @@ namespace taut
     /// closed row.
     void start_from(const std::vector<char> &closed) { result.solution.closed = closed; }
 
+    /// Before the problems of one search whose rows are linearised, from a state that satisfies
+    /// them: rows that repeat others there are the same in all of these problems. Gaps of such rows
+    /// are then no error, as they have the error of the linearisation.
+    void begin_search()
+    {
+      is_linearised = true;
+      has_sought = false;
+    }
+
+    /// Rows that repeat others, found or of an earlier solver.
+    const RepeatedRows &repeated_rows() const { return repeated; }
+    void set_repeated_rows(const RepeatedRows &rows)
+    {
+      begin_search();
+      repeated = rows;
+      has_sought = !rows.empty();
+    }
+
   private:
     void check_inert_rows(const MixedComplementarityProblem &problem,
                           const ComplementarityOperator &matrix) const;
+    bool spread_over_repeated_rows(const MixedComplementarityProblem &problem,
+                                   const ComplementarityOperator &matrix);
     bool solve_with_newton(const MixedComplementarityProblem &problem,
                            ComplementarityOperator &matrix);
     void solve_energy_ordered(const MixedComplementarityProblem &problem,
@@ -68,6 +90,9 @@ namespace taut
     SemismoothNewton newton;
     EnergyOrderedActiveSet energy_ordered;
     ComplementarityResult result;
+    RepeatedRows repeated;
+    bool has_sought = false, is_linearised = false;
+    std::vector<double> terms;
   };
 } // namespace taut
 

@@ -18,13 +18,25 @@ namespace taut
   std::vector<std::string> check_held_ends(const Scene &scene, const SceneBodies &bodies);
 
   /**
-   * Throws EntryError for a ball joint of a parameter file whose two places are apart at U = 0; the
-   * message says where they are. The tolerance is a thousandth of the length of the shorter body:
-   * the radius of gyration of a rigid body, the diagonal of the box around the surface of other
-   * bodies. Between masses and places of the ground it is a millionth of their distance from the
-   * origin. Bodies without a surface are not checked. Called by all ranks together.
+   * The vector between the two places of a link of a ball joint at U = 0 [m]: 0 for other links,
+   * at a ground without a place, and up to rounding, a billionth of the shorter body. The length of
+   * a body is the radius of gyration of a rigid body, the diagonal of the box around the surface of
+   * other bodies; that of masses and places of the ground is their distance from the origin. Called
+   * by all ranks together.
+   */
+  Coordinates distance_of_tie(const Scene &scene, const SceneBodies &bodies, std::size_t link);
+
+  /**
+   * Throws EntryError for a ball joint of a parameter file whose two places are apart at U = 0, if
+   * the start does not close it: a start at rest closes distances up to a thousandth of the shorter
+   * body, between masses and places of the ground up to a millionth of their distance from the
+   * origin. The message says the distance and where they are. Called by all ranks together.
    */
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies);
+
+  /// A warning for each two rigid bodies that joints along some fixed directions hold together at
+  /// two places or more. Such joints are a hinge until both bodies have turned.
+  std::vector<std::string> warnings_of_joints(const Scene &scene);
 } // namespace taut
 
 #endif

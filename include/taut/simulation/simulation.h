@@ -83,6 +83,7 @@ namespace taut
     StepperOptions stepper_options() const;
     void find_start();
     std::string names_of(const std::vector<char> &some) const;
+    void report_repeated_joints(const std::string &names) const;
     void report_linearised() const;
     void report_free_bodies() const;
     void find_rest();

@@ -8,6 +8,8 @@
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 
+#include <string>
+
 namespace taut
 {
   /// The start of a run, the reference of its motions, and the certificate of the equilibrium.
@@ -18,6 +20,7 @@ namespace taut
     Certificate certificate;
     std::vector<char> linearised; ///< for each body of all ranks: was linearised here
     std::size_t n_kept = 0;       ///< turning constraints that keep their direction from here on
+    std::string repeated_joints;  ///< names of those at rest, see RepeatedRows
   };
 
   /**

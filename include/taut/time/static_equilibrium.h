@@ -18,6 +18,7 @@ namespace taut
     std::vector<double> gap;           ///< D [m, rad]
     std::vector<double> geometric_gap; ///< D - S N [m, rad]
     Certificate certificate;
+    std::vector<std::size_t> repeated_joints = {}; ///< see RepeatedRows
   };
 
   /**

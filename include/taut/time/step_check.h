@@ -32,8 +32,9 @@ namespace taut
       named(std::cref(work)); // a reference allocates nothing
     }
 
-    /// Checks that the constraints hold.
-    void check_constraints(const Certificate &certificate) const;
+    /// Checks that the constraints hold. @p partners are those that the worst one repeats.
+    void check_constraints(const Certificate &certificate,
+                           const std::vector<std::size_t> &partners = {}) const;
 
     /// Checks that the equations of motion hold. @p own_balance is the residual of this rank's
     /// bodies. Called by all ranks together.
@@ -44,6 +45,7 @@ namespace taut
 
   private:
     void named(const std::function<void()> &work) const;
+    [[noreturn]] void fail_contradictory(const std::vector<std::size_t> &rows) const;
     [[noreturn]] void fail(const std::string &what, const std::string &entry = "") const;
     std::string remedy() const;
 

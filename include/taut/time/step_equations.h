@@ -55,6 +55,13 @@ namespace taut
     /// Starts the next search for multipliers from these closed rows.
     void start_from(const std::vector<char> &closed) { complementarity.start_from(closed); }
 
+    /// Before the first search of a step of nonlinear bodies or turning constraints.
+    void begin_search() { complementarity.begin_search(); }
+
+    /// Rigid joints that repeat others. Set: those of an earlier search.
+    const RepeatedRows &repeated_rows() const { return complementarity.repeated_rows(); }
+    void set_repeated_rows(const RepeatedRows &rows) { complementarity.set_repeated_rows(rows); }
+
     const FactoredStructure &bodies() const { return solvers; }
     SchurComplement &interface() { return *schur; }
     const SchurComplement &interface() const { return *schur; }

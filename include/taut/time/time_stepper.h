@@ -94,6 +94,13 @@ namespace taut
     std::string interface_description() const { return step.equations().interface().description(); }
     InterfaceStatistics interface_statistics() const { return step.interface_statistics(); }
 
+    /// Rigid joints that repeated each other in the last step, see RepeatedRows; iterative solves
+    /// do not find them.
+    std::vector<std::size_t> repeated_joints() const
+    {
+      return step.equations().repeated_rows().all_partners();
+    }
+
     /// Where the time of the steps goes.
     StepCosts &costs() { return step.costs(); }
     const StepCosts &costs() const { return step.costs(); }

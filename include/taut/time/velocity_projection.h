@@ -89,6 +89,7 @@ namespace taut
     double step = 0.;
     std::vector<std::vector<unsigned int>> quasi_static; ///< DoFs of each body
     bool some_quasi_static;                              ///< on any rank
+    bool is_linear = true;                               ///< bodies and directions
     std::vector<char> takes_part, has_no_mass; ///< constraints; has_no_mass: on DoFs without mass
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
