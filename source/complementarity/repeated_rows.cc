@@ -18,7 +18,7 @@ namespace taut
     constexpr double dependent = 1e-12, distinct = 1e-8;
 
     /// Part of its terms up to which F z is that of a search which is about to end.
-    constexpr double nearly_exact = 1e-8;
+    constexpr double nearly_exact = 1e-5;
 
     /// Most bilateral rows for a dense factor, which takes a second for them: the many rows between
     /// parts of a body do not repeat each other.

@@ -72,17 +72,17 @@ TEST(CableJoints, ball_joints_of_solids_hold_one_place)
           name + ": Type = solid; Dimension = 3; Young's modulus = 1e6; Density = 10\n" + name +
           "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 2, 1, 2 : " + corners + "\n";
     }
-    return error_of("Start = equilibrium\nTime: End = 0\n" + bodies +
+    return error_of("Start = undeformed\nTime: End = 0\n" + bodies +
                     "Mass lamp: Position = 4, 1; Motions = x, y, z; Mass = 1\n"
                     "Link pin: Type = ball joint; From = " +
                     first + "; To = " + to);
   };
-  EXPECT_EQ(joined("left @ 2, 1, 0", "right @ 2, 0.9971, 0"), ""); // a diagonal of 3 m
+  EXPECT_EQ(joined("left @ 2, 1, 0", "right @ 2, 1, 0"), "");
   expect(joined("left @ 2, 1, 0", "right @ 2, 0.9969, 0"),
-         {"Link pin/To", "0.0031 m apart", "From is at 2, 1, 0", "To at 2, 0.9969, 0", "to 0.003 m",
-          "thousandth of the shorter body"});
+         {"Link pin/To", "0.0031 m apart", "From is at 2, 1, 0", "To at 2, 0.9969, 0",
+          "start from 'equilibrium'", "thousandth of the shorter body"});
   EXPECT_EQ(joined("right @ 4, 1, 0", "lamp"), "");
-  expect(joined("right @ 4, 0, 0", "lamp"), {"Link pin/To", "1 m apart", "to 0.003 m"});
+  expect(joined("right @ 4, 0, 0", "lamp"), {"Link pin/To", "1 m apart"});
 }
 
 TEST(CableJoints, ball_joints_of_masses_hold_one_place)
@@ -99,8 +99,8 @@ TEST(CableJoints, ball_joints_of_masses_hold_one_place)
   // Up to a billionth of the distance from the origin is rounding.
   EXPECT_EQ(joined("3, 4.000000004", "b"), "");
   expect(joined("3, 4.000004", "b"), {"Link tie/To", "4e-06 m apart", "start from 'equilibrium'"});
-  expect(joined("3, 4, 0.01", "b"), {"Link tie/To", "0.01 m apart", "From is at 3, 4, 0",
-                                     "To at 3, 4, 0.01", "from the origin"});
+  expect(joined("3, 4, 0.01", "b"),
+         {"Link tie/To", "0.01 m apart", "From is at 3, 4, 0", "To at 3, 4, 0.01"});
   EXPECT_EQ(joined("0, 0", "ground @ 3, 4"), "");
   expect(joined("0, 0", "ground @ 0, 0"), {"Link tie/To", "5 m apart"});
 }
