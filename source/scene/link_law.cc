@@ -99,8 +99,10 @@ namespace taut
         if (a >= range)
           return .5 * (value(a) + value(b));
         constexpr unsigned int most_halvings = 15;
-        constexpr double tolerance = 1e-13;
-        const double end = std::min(b, range);
+        // Below the rounding of the formula, a part of its force at the range, no halving helps.
+        constexpr double exactness = 1e-13, rounding_of_range = 1e-14;
+        const double end = std::min(b, range),
+                     tolerance = std::max(exactness, rounding_of_range * value(range) / value(end));
         const double inside = boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
             [&](const double part) { return value(a + part * (end - a)); }, 0., 1., most_halvings,
             tolerance);

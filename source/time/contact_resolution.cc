@@ -339,14 +339,19 @@ namespace taut
     return result;
   }
 
-  std::vector<double> ContactResolution::longest_steps() const
+  std::vector<LongestStep> ContactResolution::longest_steps(const Constraints &constraints) const
   {
-    std::vector<double> result;
-    for (const Row &row : of)
-      result.push_back(row.may_conserve && row.share > small_share && row.damping_ratio > 0.
-                           ? row.contact_time /
-                                 (steps_of_a_damped_contact + more_by_damping * row.damping_ratio)
-                           : std::numeric_limits<double>::infinity());
+    std::vector<LongestStep> result(of.size());
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (of[i].may_conserve && of[i].share > small_share && of[i].damping_ratio > 0.)
+        result[i] = {of[i].contact_time, of[i].damping_ratio, constraints[i].spring.law.get()};
     return result;
+  }
+
+  /// A softer spring has longer contacts, and its damper is a larger part of the critical one.
+  double LongestStep::at_stiffness(const double part) const
+  {
+    return contact_time /
+           (steps_of_a_damped_contact * std::sqrt(part) + more_by_damping * damping_ratio);
   }
 } // namespace taut

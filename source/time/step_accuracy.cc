@@ -119,9 +119,9 @@ namespace taut
     StepParameters control = run.control;
     control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
     control.largest *= factor;
-    std::vector<double> longest_steps = run.longest_steps;
-    for (double &longest : longest_steps)
-      longest *= factor;
+    std::vector<LongestStep> longest_steps = run.longest_steps;
+    for (LongestStep &longest : longest_steps)
+      longest.contact_time *= factor;
     try
     {
       run.constraints.set_courses(courses);

@@ -25,15 +25,15 @@ namespace taut
     constexpr double order_of_error = 3.;
 
     unsigned int halvings(const StepParameters &parameters, const double step, const bool may_halve,
-                          const std::vector<double> &longest_steps)
+                          const std::vector<LongestStep> &longest_steps)
     {
       unsigned int n = parameters.adaptive() ? parameters.n_halvings
                        : may_halve           ? most_halvings
                                              : 0;
-      for (const double longest : longest_steps)
-        if (longest < step)
+      for (const LongestStep &longest : longest_steps)
+        if (const double shortest = longest.shortest(); shortest < step)
           n = std::max(n, std::min(most_for_contacts, static_cast<unsigned int>(
-                                                          std::ceil(std::log2(step / longest)))));
+                                                          std::ceil(std::log2(step / shortest)))));
       return n;
     }
   } // namespace
@@ -72,7 +72,7 @@ namespace taut
   }
 
   StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps,
-                           const bool may_halve, std::vector<double> longest)
+                           const bool may_halve, std::vector<LongestStep> longest)
       : parameters(parameters), longest_steps(std::move(longest)),
         n_levels(halvings(parameters, step, may_halve, longest_steps)), step(step),
         shortest(std::ldexp(step, -static_cast<int>(n_levels))),
@@ -109,6 +109,12 @@ namespace taut
     n_calm = 0;
   }
 
+  /// Longest step that resolves a contact in the step that ends at a state [s].
+  double StepControl::longest_step(const std::size_t i, const State &state) const
+  {
+    return longest_steps[i].between(-before.geometric_gap[i], -state.geometric_gap[i]);
+  }
+
   /// Whether a contact is under way: it opens or closes, may still be a rebound, or its force
   /// changes much. Others follow their bodies.
   bool StepControl::is_moving_contact(const std::size_t i, const State &state) const
@@ -118,7 +124,7 @@ namespace taut
     const double first = before.multiplier[i], last = state.multiplier[i];
     if (!(first > 0.) || !(last > 0.))
       return first > 0. || last > 0.;
-    return state.time - last_open[i] < steps_of_rebound * longest_steps[i] ||
+    return state.time - last_open[i] < steps_of_rebound * longest_step(i, state) ||
            !(std::fabs(last - first) <= large_change * std::max(first, last));
   }
 
@@ -127,7 +133,8 @@ namespace taut
   {
     constexpr double rounding = 1e-9;
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      if (shortest * length() > longest_steps[i] * (1. + rounding) && is_moving_contact(i, state))
+      if (shortest * length() > longest_step(i, state) * (1. + rounding) &&
+          is_moving_contact(i, state))
         return true;
     return false;
   }
@@ -150,8 +157,9 @@ namespace taut
     position += length();
     bool is_closed = false; // by a contact under way
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      is_closed = is_closed || (longest_steps[i] < step && stepper.state().multiplier[i] > 0. &&
-                                is_moving_contact(i, stepper.state()));
+      is_closed =
+          is_closed || (longest_steps[i].shortest() < step && stepper.state().multiplier[i] > 0. &&
+                        is_moving_contact(i, stepper.state()));
     while (level < n_levels && !is_closed && position % (2 * length()) == 0)
       ++level;
   }

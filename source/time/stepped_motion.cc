@@ -56,7 +56,7 @@ namespace taut
     if (integrator->coefficients(longest).velocity_projection)
     {
       constraints.set_conserving(resolution().conserving());
-      longest_steps = resolution().longest_steps();
+      longest_steps = resolution().longest_steps(constraints);
     }
     resolved.reset();
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, *integrator,

@@ -6,6 +6,8 @@
 // step.
 #include "scene_tests.h"
 
+#include <functional>
+
 using namespace verification;
 
 namespace
@@ -140,6 +142,102 @@ Time: Step = 1e-3; End = 0.03
     EXPECT_NEAR(last, .03, 1e-12);
     EXPECT_NEAR(velocity, exact, .02 * exact) << zeta;
   }
+}
+
+namespace
+{
+  /// Velocity with which a mass of 1 kg leaves a law with a damper beside it that it meets with 1
+  /// m/s, where both together stop to push: classical Runge-Kutta steps.
+  double rebound(const std::function<double(double)> &force, const double damping)
+  {
+    constexpr double h = 1e-6;
+    const auto a = [&](const double u, const double v) { return -force(u) - damping * v; };
+    double u = 0., v = 1.;
+    do
+    {
+      const double a1 = a(u, v), v2 = v + .5 * h * a1, a2 = a(u + .5 * h * v, v2),
+                   v3 = v + .5 * h * a2, a3 = a(u + .5 * h * v2, v3), v4 = v + h * a3,
+                   a4 = a(u + h * v3, v4);
+      u += h / 6. * (v + 2. * v2 + 2. * v3 + v4);
+      v += h / 6. * (a1 + 2. * a2 + 2. * a3 + a4);
+    } while (a(u, v) < 0.);
+    return v;
+  }
+
+  struct Met
+  {
+    double velocity = 0.;
+    int n_steps = -1;
+  };
+
+  Met meet(const std::string &law, const double damping)
+  {
+    Met result;
+    run_scene(R"(Gravity = 0, 0; Start = given
+Mass mass: Position = 0, 0; Motions = y; Mass = 1; Initial velocity = 0, -1, 0
+Link stop: Type = stop; From = ground; To = mass; Direction = 0, 1; Gap = 0.0123; )" +
+                  law + "; Damping = " + number(damping) + "\nTime: Step = 1e-3; End = 0.06\n",
+              {},
+              [&](const taut::StepView &view)
+              {
+                result.velocity = view.state.V[0][0];
+                ++result.n_steps;
+              });
+    return result;
+  }
+} // namespace
+
+// Of 1e4 N/m the mass compresses 10 mm; a contact lasts 31 steps then. At the end of each law waits
+// a stiffness that takes thousands of steps.
+TEST(ResolvedContacts, steps_follow_the_stiffness_that_a_law_reaches)
+{
+  const double c = 20.;
+  const Met soft = meet("Law = table; Law points = 0.02: 200, 0.021: 1e6", c),
+            formula =
+                meet("Law = formula; Law formula = 50 * (exp(d / 0.005) - 1); Law range = 0.1", c),
+            stiff = meet("Law = table; Law points = 0.005: 50, 0.02: 15050, 0.021: 1e6", c);
+  EXPECT_EQ(soft.n_steps, 60);
+  EXPECT_NEAR(soft.velocity, -rebound([](const double u) { return 1e4 * u; }, c), .02);
+  EXPECT_LT(formula.n_steps, 300);
+  EXPECT_NEAR(formula.velocity,
+              -rebound([](const double u) { return 50. * (std::exp(u / .005) - 1.); }, c), .02);
+  EXPECT_GT(stiff.n_steps, 120);
+  EXPECT_LT(stiff.n_steps, 600);
+  EXPECT_NEAR(stiff.velocity,
+              -rebound([](const double u) { return 1e4 * u + 9.9e5 * std::max(0., u - .005); }, c),
+              .02);
+}
+
+// Three masses on springs above a base that moves. A law with a damper between two of them is of
+// 2.75e9 N/m at the end of its range, 10 mm, of which the motion needs a tenth.
+TEST(ResolvedContacts, law_with_damper)
+{
+  int n_steps = -1;
+  double deepest = 0.;
+  run_scene(R"(Gravity = 0, 0; Start = given
+Mass base: Position = 0, -1; Motions = x; Mass = 1; Prescribed y = 0.01 * sin(6 * t)
+Mass m0: Position = 0, 0; Motions = y; Mass = 0.676
+Mass m1: Position = 0, 1; Motions = y; Mass = 0.872
+Mass m2: Position = 0, 2; Motions = y; Mass = 1.308
+Spring s0: From = base; To = m0; Stiffness = 1251.5
+Spring s1: From = m0; To = m1; Stiffness = 4732.3
+Spring s2: From = m1; To = m2; Stiffness = 4912.6
+Link l0: Type = stop; From = m1; To = m2; Direction = 0, 1; Gap = -0.000722; Damping = 15.2719
+  ; Law = formula; Law formula = 124.8595551 * (exp(d / 0.001) - 1); Law range = 0.01
+Link l1: Type = stop; From = ground; To = m1; Direction = 0, 1; Gap = -0.000958
+  ; Stiffness = 1514.90675862
+Time: Step = 0.0014; End = 0.28
+)",
+            {},
+            [&](const taut::StepView &view)
+            {
+              ++n_steps;
+              deepest = std::min(deepest, view.state.geometric_gap[0]);
+            });
+  figure("law with damper, steps for 200", n_steps);
+  figure("law with damper, compression", -1e3 * deepest, "mm");
+  EXPECT_LT(n_steps, 20 * 200);
+  EXPECT_GT(-deepest, .7e-3);
 }
 
 // A beam of ten metres falls flat on 41 stops; most of its mass stands above one.

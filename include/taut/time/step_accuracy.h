@@ -21,9 +21,9 @@ namespace taut
     const SolverParameters &solver;
     const TimeIntegrator &integrator;
     const StepParameters &control;
-    double step;                       ///< [s]
-    long n_steps;                      ///< of this length
-    std::vector<double> longest_steps; ///< for closed constraints, see StepControl [s]
+    double step;                            ///< [s]
+    long n_steps;                           ///< of this length
+    std::vector<LongestStep> longest_steps; ///< see StepControl
     const Reference &reference;
     const State &start;
     bool at_rest;             ///< the start is an equilibrium

@@ -2,6 +2,7 @@
 #ifndef taut_step_control_h
 #define taut_step_control_h
 
+#include <taut/time/contact_resolution.h>
 #include <taut/time/time_stepper.h>
 
 #include <cmath>
@@ -54,9 +55,9 @@ namespace taut
   {
   public:
     /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
-    /// @p longest_steps: for each constraint the longest step in a contact [s]; empty: any.
+    /// @p longest_steps: for each constraint the longest step in a contact; empty: any.
     StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
-                std::vector<double> longest_steps = {});
+                std::vector<LongestStep> longest_steps = {});
 
     bool is_finished() const { return position == end; }
 
@@ -79,6 +80,7 @@ namespace taut
     long length() const { return 1L << level; }
 
     void solve(TimeStepper &stepper);
+    double longest_step(std::size_t i, const State &state) const;
     bool is_moving_contact(std::size_t i, const State &state) const;
     bool is_too_long_for_contacts(const State &state) const;
     void take_back(TimeStepper &stepper, unsigned int n_levels_down);
@@ -86,7 +88,7 @@ namespace taut
     void advance_adaptive(TimeStepper &stepper);
 
     const StepParameters parameters;
-    const std::vector<double> longest_steps;
+    const std::vector<LongestStep> longest_steps;
     const unsigned int n_levels; ///< number of possible halvings of a step
     const double step, shortest; ///< [s]
     const long end;              ///< in shortest steps

@@ -122,7 +122,7 @@ namespace taut
     SchemeChoice chosen;
     std::unique_ptr<ContactResolution> resolved; ///< until the first step
     std::unique_ptr<TimeIntegrator> integrator;
-    std::vector<double> longest_steps; ///< of constraints with dampers [s]
+    std::vector<LongestStep> longest_steps; ///< of constraints with dampers
     std::unique_ptr<TimeStepper> stepper;
     std::unique_ptr<StepControl> control;
     StepCoefficients last;
