@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/output/line_constants.h>
+#include <taut/scene/travel.h>
+#include <taut/scene/wave_speed.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +29,10 @@ namespace taut
         continue;
       LineConstants found{link.name, wire.name};
       found.speed = std::fabs(link.speed);
-      found.wave_speed = std::sqrt(wire.tension / wire.mass_per_length);
-      found.doppler = (found.wave_speed - found.speed) / (found.wave_speed + found.speed);
+      if (link.travel)
+        found.speed = std::max(std::fabs(link.travel->speed(0.)), link.travel->range().fastest);
+      const double c = found.wave_speed = wave_speed(wire);
+      found.doppler = std::max(0., (c - found.speed) / (c + found.speed));
       const auto holds = [&](const Link &dropper)
       {
         return dropper.kind == LinkKind::dropper && dropper.to.kind == Attachment::Kind::wire &&
@@ -39,7 +43,7 @@ namespace taut
       {
         const double above = impedance(scene.wires[dropper->from.index]);
         found.reflection = above / (above + impedance(wire));
-        found.amplification = found.reflection / found.doppler;
+        found.amplification = found.doppler > 0. ? found.reflection / found.doppler : 0.;
       }
       result.push_back(found);
     }

@@ -5,6 +5,7 @@
 #include <taut/cable/cable.h>
 #include <taut/output/model_limits.h>
 #include <taut/scene/travel.h>
+#include <taut/scene/wave_speed.h>
 
 #include <algorithm>
 #include <cmath>
@@ -197,12 +198,12 @@ namespace taut
       if (on.kind != Attachment::Kind::wire)
         return;
       const Wire &wire = scene.wires[on.index];
-      const double waves = std::sqrt(wire.tension / wire.mass_per_length), v = std::fabs(speed);
+      const double waves = wave_speed(wire), v = std::fabs(speed);
       if (!(wire.tension > 0.) || v <= waves)
         return;
       const std::string what = to_text(
           std::setprecision(4), name, " moves at ", v, " m/s, faster than the waves of wire '",
-          wire.name, "', sqrt(tension / mass per length) = ", waves,
+          wire.name, "', ", waves,
           " m/s: what is ahead of it does not know of it. Slow it down, or tighten the wire");
       if (constant.empty() || v / waves > constant.back().value / constant.back().limit)
         constant = {{"speed", what, v, waves, "m/s", 0.}};

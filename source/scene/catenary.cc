@@ -73,8 +73,8 @@ namespace taut
     prm.add_parameter("Pitch damping", pitch_damping, "Of such a head [N m s/rad]", not_negative());
     prm.add_parameter(
         "Faster than waves", faster_than_waves,
-        "Lets it run at least as fast as the waves of the contact wire, sqrt(tension / mass per "
-        "length), which is an error otherwise");
+        "Lets it run at least as fast as the waves of the contact wire, which is an error "
+        "otherwise");
     prm.add_parameter("Contact stiffness", contact_stiffness,
                       "Between head and contact wire; a number or 'rigid' [N/m]", Anything());
     prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",

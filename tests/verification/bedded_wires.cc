@@ -6,6 +6,8 @@
 #include "scene_tests.h"
 #include "solid/first_frequency.h"
 
+#include <taut/output/line_constants.h>
+
 #include <array>
 #include <complex>
 
@@ -238,4 +240,76 @@ TEST(ConductorRail, under_a_pantograph_moves_like_a_beam_on_springs)
   EXPECT_EQ(found.size(), 401u);
   EXPECT_LT(largest_difference(found, expected), 1e-12);
   EXPECT_GT(largest(found), 1e-3);
+}
+
+// Bending carries the waves of a rail: T + EI q^2 at the wave number q of 20 Hz, m c^4 - T c^2 = EI
+// omega^2. sqrt(T / m) would be 12 m/s, and the pantograph runs at 30 m/s.
+TEST(ConductorRail, with_tension_runs_slower_than_its_waves)
+{
+  const auto with_tension = [](std::string scene)
+  {
+    const std::string at = "Bending stiffness = 2.1e5";
+    scene.insert(scene.find(at) + at.size(), "; Tension = 1500");
+    const std::string none = "Tension = 0; ";
+    if (const std::size_t begin = scene.find(none); begin != std::string::npos)
+      scene.erase(begin, none.size());
+    return scene;
+  };
+  const auto history = [&](const bool by_catenary)
+  {
+    return history_of(with_tension(rail(by_catenary, true)), {},
+                      [](const taut::StepView &view) { return displacement(view, 0, 20.); });
+  };
+  const std::vector<double> found = history(true);
+  EXPECT_LT(largest_difference(found, history(false)), 1e-12);
+  EXPECT_GT(largest(found), 1e-3);
+  EXPECT_GT(largest_difference(found, history_of(rail(true, true), {},
+                                                 [](const taut::StepView &view)
+                                                 { return displacement(view, 0, 20.); })),
+            1e-6);
+
+  Session session(with_tension(rail(true, true)));
+  const std::vector<taut::LineConstants> lines = taut::line_constants(session.simulation().scene());
+  ASSERT_EQ(lines.size(), 1u);
+  const double c = lines[0].wave_speed, omega = 40. * std::acos(-1.);
+  EXPECT_NEAR(10. * std::pow(c, 4) - 1500. * c * c, 2.1e5 * omega * omega,
+              1e-9 * 2.1e5 * omega * omega);
+  EXPECT_NEAR(lines[0].doppler, (c - 30.) / (c + 30.), 1e-12);
+}
+
+// Timoshenko's critical speed bounds what may run on a bedding, and makes the constants of the line
+// at the largest of speeds that change. Without bending it is that of the string.
+TEST(BeddedWire, has_one_speed_of_waves_for_refusals_and_constants)
+{
+  const auto scene = [](const double bending, const std::string &speed)
+  {
+    return "Gravity = 0, 0\nWire line: From = 0, 0; To = 100, 0; Components = " +
+           std::string(bending > 0. ? "beam" : "string") +
+           "; Mass per length = 2; Tension = 50; Foundation stiffness = 300; Element size = 0.5" +
+           (bending > 0. ? "; Bending stiffness = " + number(bending) : "") +
+           "\nSupport ends: Wire = line; Positions = 0, 100\n"
+           "Mass head: Position = 5, 0; Mass = 1; Weight = false\n"
+           "Link contact: Type = sliding contact; From = head; To = line @ 5; Direction = 0, 1; "
+           "Speed = " +
+           speed + "\nTime: Step = 1e-3; End = 0.5\n";
+  };
+  for (const double bending : {0., 12., 700.})
+  {
+    const double c = std::sqrt((50. + 2. * std::sqrt(300. * bending)) / 2.);
+    for (const bool changes : {false, true})
+    {
+      const auto speed = [&](const double part)
+      { return changes ? number(2. * part * c) + " * t" : number(part * c); };
+      Session slow(scene(bending, speed(.99)));
+      const auto lines = taut::line_constants(slow.simulation().scene());
+      ASSERT_EQ(lines.size(), 1u);
+      EXPECT_NEAR(lines[0].wave_speed, c, 1e-12 * c);
+      EXPECT_NEAR(lines[0].speed, .99 * c, 1e-9 * c);
+      EXPECT_NEAR(lines[0].doppler, .01 / 1.99, 1e-9);
+      const std::string error = error_of([&] { Session(scene(bending, speed(1.01))); });
+      EXPECT_TRUE(has(error, "speed of the waves of wire 'line'")) << error;
+      Session fast(scene(bending, speed(1.01) + "; Faster than waves = true"));
+      EXPECT_EQ(taut::line_constants(fast.simulation().scene())[0].doppler, 0.);
+    }
+  }
 }

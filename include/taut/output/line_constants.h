@@ -17,11 +17,11 @@ namespace taut
   struct LineConstants
   {
     std::string contact, wire;
-    double speed = 0.;         ///< |v| at t = 0 [m/s]
-    double wave_speed = 0.;    ///< c = sqrt(T / m) [m/s]
-    double doppler = 0.;       ///< (c - v) / (c + v) [1]
+    double speed = 0.;         ///< v, the largest |v| of the run [m/s]
+    double wave_speed = 0.;    ///< c, see wave_speed() [m/s]
+    double doppler = 0.;       ///< (c - v) / (c + v); 0 if not slower than the waves [1]
     double reflection = 0.;    ///< r of waves in the wire at a dropper; 0 without droppers [1]
-    double amplification = 0.; ///< r / Doppler factor; 0 without droppers [1]
+    double amplification = 0.; ///< r / Doppler factor; 0 without one, or without droppers [1]
   };
 
   /// Of each sliding contact on a wire with tension, in the order of the scene.
