@@ -62,6 +62,8 @@ namespace taut
 
   void check_strips(const Scene &scene, const double end_time)
   {
+    constexpr double most_apart =
+        .01; // over the way, between wires of which one rises by a seventh
     std::map<std::string, std::vector<const Link *>> strips;
     for (const Link &link : scene.links)
       if (link.moving() && !link.strip.empty())
@@ -70,13 +72,24 @@ namespace taut
     {
       // Parts of the way under each wire, from first to last.
       std::vector<std::pair<double, double>> parts;
-      for (const Link *link : links)
-        parts.emplace_back(-link->to.position,
-                           scene.wires[link->to.index].length() - link->to.position);
-      std::sort(parts.begin(), parts.end());
       const TravelRange range = travel_range(*links.front(), end_time);
       const double end = way(*links.front(), end_time), first = range.least, last = range.greatest,
                    same = 1e-9 * (last - first + 1.);
+      const Wire &leader = scene.wires[links.front()->to.index];
+      for (const Link *link : links)
+      {
+        const Wire &wire = scene.wires[link->to.index];
+        const double along = dot(wire.tangent(), leader.tangent()),
+                     own_end = along * way(*link, end_time);
+        if (!(std::fabs(own_end - end) <= most_apart * (last - first) + same))
+          fail(*link, "Speed", "strip '", name, "': it moves by ", own_end, " m on wire '",
+               wire.name, "' and by ", end, " m on wire '", leader.name,
+               "', in the direction of the latter. The speed counts along each wire: give it the "
+               "other sign where a wire begins at the other end, or name all wires in one To");
+        parts.push_back(
+            std::minmax({-along * link->to.position, along * (wire.length() - link->to.position)}));
+      }
+      std::sort(parts.begin(), parts.end());
       double reached = first;
       for (const auto &[from, to] : parts)
         if (from <= reached + same)

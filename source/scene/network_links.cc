@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace taut
 {
@@ -189,10 +190,11 @@ namespace taut
     {
       if (!link.form.find_direction)
         return;
-      if (!link.form.find_length)
+      if (link.turns || (!link.form.find_length && !(link.unstressed_length > 0.)))
         throw EntryError(title + "/Find direction",
-                         "it is found with the length; set 'Find length = true', or give the "
-                         "Direction from end to end alone");
+                         "it is found with the length, or of a dropper of a known length that does "
+                         "not turn; set 'Find length = true', give a Length, or give the Direction "
+                         "from end to end alone");
       for (const Attachment *const end : {&link.from, &link.to})
         if (end->kind != Attachment::Kind::wire || !scene.wires[end->index].has_lateral ||
             scene.wires[end->index].has_axial)
@@ -315,11 +317,15 @@ namespace taut
                  : std::vector<std::string>();
     }
 
-    /// A link to each wire over a strip. Without a start of its own it is below `From` along the
-    /// wire, also before its begin.
-    void add_strip(Link link, const std::vector<std::string> &wires, Scene &scene)
+    /// A link to each wire over a strip, which moves along the first wire with the Speed, and along
+    /// the others as it crosses them. Without a start of its own it is below `From` along the wire,
+    /// also before its begin.
+    void add_strip(Link link, const std::vector<std::string> &wires, const std::string &speed,
+                   Scene &scene)
     {
       const std::string first_name = link.name;
+      constexpr double least_along = .5; // cosine of an angle from which on wires cross
+      std::optional<Coordinates> way;
       if (link.strip.empty())
         link.strip = link.name;
       for (const std::string &text : wires)
@@ -329,8 +335,17 @@ namespace taut
         const std::size_t index = find_name(scene.wires, name);
         const Wire &wire = scene.wires[index];
         link.name = first_name + " on " + name;
+        const double along = way ? dot(wire.tangent(), *way) : 1.;
+        way = way.value_or(wire.tangent());
+        if (!(std::fabs(along) > least_along))
+          throw EntryError(link.origin + "/To", "wire '" + name +
+                                                    "' is across the first one, along which the "
+                                                    "strip moves; leave it out");
+        const Speed of_wire = parse_speed(speed, link.origin + "/Speed", along);
+        link.speed = of_wire.constant;
+        link.travel = of_wire.travel;
         link.to = {Attachment::Kind::wire, index,
-                   dot(place(scene, link.from) - wire.a, wire.tangent())};
+                   dot(place(scene, link.from) - wire.a, *way) / along};
         if (at != std::string::npos)
         {
           const std::vector<double> start =
@@ -365,7 +380,7 @@ namespace taut
         link.name = links.names[i];
         link.from = from[0];
         link.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
-        add_strip(link, wires, scene);
+        add_strip(link, wires, item.speed, scene);
         continue;
       }
       const auto to = parse_attachments(item.to, scene, title + "/To");

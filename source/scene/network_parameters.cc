@@ -249,8 +249,8 @@ namespace taut
   void Network::LinkItem::declare_sliding(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Speed", speed,
-                      "Of a sliding contact along its wire or its unstressed cable: a number, or a "
-                      "formula in t [m/s]",
+                      "Of a sliding contact along its wire, the first of several wires, or its "
+                      "unstressed cable: a number, or a formula in t [m/s]",
                       Anything());
     prm.add_parameter(
         "Strip", strip,
@@ -260,8 +260,8 @@ namespace taut
         Anything());
     prm.add_parameter(
         "Faster than waves", faster_than_waves,
-        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
-        "length), which is an error otherwise");
+        "Lets it run at least as fast as the waves of its wire if that has tension, which is "
+        "an error otherwise");
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -276,9 +276,9 @@ namespace taut
                       "A dropper as long as its To end needs to stand at the prescribed "
                       "displacement in the static state without sliding contacts");
     prm.add_parameter("Find direction", find_direction,
-                      "Of a dropper between wires with lateral motion, with its length: it hangs "
-                      "from end to end in the static state, and Direction is that of the "
-                      "prescribed displacement");
+                      "Of a dropper between wires with lateral motion, with its length or with a "
+                      "given Length: it hangs from end to end in the static state, and Direction "
+                      "is that of the heights of its ends");
     prm.add_parameter("Prescribed displacement", prescribed_displacement,
                       "Of the To end towards From, if the length is found [m]", Double());
     prm.add_parameter("Axial stiffness", axial_stiffness,
@@ -318,8 +318,8 @@ namespace taut
                       Anything());
     prm.add_parameter(
         "Faster than waves", faster_than_waves,
-        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
-        "length), which is an error otherwise");
+        "Lets it run at least as fast as the waves of its wire if that has tension, which is "
+        "an error otherwise");
     prm.add_parameter("Acts while built", acts_while_built,
                       "Whether lengths of droppers are found with this load; wind blows later");
   }

@@ -112,6 +112,84 @@ TEST(Strips, strings_share_the_force_of_a_moving_strip_like_their_tensions)
 // Claim: each wire has the strip at its own place. Strings whose mass is a thousandth of the head's
 // are springs, of stiffness T L / (s (L - s)). Expected: the forces are in the ratio of these
 // stiffnesses at the places under the strip. The ratio goes from 0.44 to 1.9.
+namespace
+{
+  /// A head under two strings in space, from x = 8 m on with 20 m/s. The second one is drawn as it
+  /// is said.
+  std::string opposite_wires(const std::string &second, const std::string &strip)
+  {
+    const std::string wire = "; Components = string; Mass per length = 1; Tension = 1e4"
+                             "; Element size = 0.25; Stiffness damping = 0.001; Weight = false\n";
+    return "Gravity = 0, 0; Start = equilibrium\nWire a: From = 0, 0, 0; To = 20, 0, 0" + wire +
+           "Wire b: " + second + wire +
+           R"(Support a: Wire = a; Positions = 0, 20
+Support b: Wire = b; Positions = 0, 20
+Mass h: Position = 8, 0; Motions = y; Mass = 2; Weight = false
+Load F: On = h; Magnitude = 60
+)" + strip +
+           "Time: Step = 0.0002; End = 0.4\n";
+  }
+
+  const std::string along = "From = 0, 0, 0.3; To = 20, 0, 0.3",
+                    against = "From = 20, 0, 0.3; To = 0, 0, 0.3",
+                    on_both = "; Type = sliding contact; From = h; Direction = 0, 1; Stiffness = "
+                              "50000; Speed = ";
+
+  std::vector<double> shares(const std::string &scene)
+  {
+    std::vector<double> result;
+    run_scene(scene, {},
+              [&](const taut::StepView &view)
+              {
+                for (const std::size_t link : {0, 1})
+                  result.push_back(share(view, link));
+              });
+    return result;
+  }
+} // namespace
+
+// Two equal strings share the force by their symmetry, whichever end is the first of each.
+TEST(Strips, strip_on_opposite_wires)
+{
+  const std::string strip = "Link s: To = a, b" + on_both + "20\n";
+  std::vector<double> positions;
+  run_scene(opposite_wires(against, strip), {},
+            [&](const taut::StepView &view)
+            {
+              positions = {view.constraints.position(0, view.state.time),
+                           view.constraints.position(1, view.state.time)};
+            });
+  ASSERT_EQ(positions.size(), 2u);
+  EXPECT_NEAR(positions[0], 16., 1e-9);
+  EXPECT_NEAR(positions[1], 4., 1e-9);
+  const std::vector<double> found = shares(opposite_wires(against, strip));
+  EXPECT_NEAR(found[found.size() - 2], 28.64, .005);
+  EXPECT_NEAR(found[found.size() - 1], 28.64, .005);
+}
+
+// The same with a speed that changes, a slower wire in front, and links of their own.
+TEST(Strips, move_with_their_head_however_a_wire_is_drawn)
+{
+  for (const char *const speed : {"20", "8 + 40 * t"})
+  {
+    const std::string list = "Link s: To = b, a" + on_both + speed + "\n",
+                      backwards = "Link s: To = b, a" + on_both + "-(" + speed + ")\n";
+    const std::vector<double> expected = shares(opposite_wires(along, list));
+    EXPECT_LT(largest_difference(shares(opposite_wires(against, backwards)), expected),
+              1e-9 * largest(expected));
+    const auto own = [&](const std::string &sign)
+    {
+      return "Link one: Strip = s; To = b @ 12" + on_both + sign + "(" + speed + ")\n" +
+             "Link two: Strip = s; To = a @ 8" + on_both + speed + "\n";
+    };
+    EXPECT_LT(largest_difference(shares(opposite_wires(against, own("-"))), expected),
+              1e-9 * largest(expected));
+    const std::string error = error_of([&] { Session(opposite_wires(against, own(""))).run(); });
+    EXPECT_TRUE(has(error, "Speed")) << error;
+    EXPECT_TRUE(has(error, " m on wire 'a' and by ")) << error;
+  }
+}
+
 TEST(Strips, strings_of_unequal_ends_share_the_force_by_the_place_of_the_strip)
 {
   const auto wire = [](const std::string &name, const double from, const double to, const double z)
