@@ -133,6 +133,11 @@ namespace taut
   std::string copied_name(const std::string &name)
   {
     const fs::path path(name);
-    return (leaves_folder(path) ? path.filename() : path).string();
+    if (!leaves_folder(path))
+      return path.string();
+    // All runs have a table of droppers: its folder says of which run.
+    return (path.filename() == "droppers.csv" ? path.parent_path().filename() / path.filename()
+                                              : path.filename())
+        .string();
   }
 } // namespace taut

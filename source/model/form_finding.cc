@@ -84,7 +84,7 @@ namespace taut
     std::vector<Link> links;
     std::vector<Attachment> ends;
     for (const Link &link : scene.links)
-      if (link.form.find_length)
+      if (is_found(link))
       {
         links.push_back(link);
         ends.insert(ends.end(), {link.from, link.to});
@@ -102,8 +102,7 @@ namespace taut
     const auto find = [&]
     {
       Scene base = part.scene;
-      base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
-                                      [](const Link &link) { return link.form.find_length; }),
+      base.links.erase(std::remove_if(base.links.begin(), base.links.end(), is_found),
                        base.links.end());
       return find_form(base, droppers, parameters);
     };
@@ -113,10 +112,10 @@ namespace taut
 
     std::size_t i = 0;
     for (Link &link : scene.links)
-      if (link.form.find_length)
+      if (is_found(link))
       {
-        link.form.find_length = false;
         take_form(scene, droppers[i], form, i, link);
+        link.form.find_length = link.form.find_direction = false;
         add_mass(link, scene);
         ++i;
       }

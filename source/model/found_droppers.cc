@@ -8,6 +8,7 @@
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -72,7 +73,8 @@ namespace taut
       FoundDropper dropper{links[i], between[i]};
       if (links[i].form.pull > 0.)
         dropper.run = run_of(scene, links[i], between[i]);
-      dropper.link.length = dropper.length_over(dot(between[i], links[i].direction));
+      if (!dropper.is_given())
+        dropper.link.length = dropper.length_over(dot(between[i], links[i].direction));
       result.push_back(std::move(dropper));
     }
     return result;
@@ -118,16 +120,71 @@ namespace taut
       return spring;
     }
 
+    /// A dropper of a given length, from end to end.
+    Link turning(const FoundDropper &dropper)
+    {
+      Link link = dropper.link;
+      link.form = {};
+      link.turns = true;
+      return link;
+    }
+
+    /// Springs that pull the ends of droppers of a known form together across their heights.
+    void add_sideways(const std::vector<FoundDropper> &droppers, const DropperForm &form,
+                      Scene &scene)
+    {
+      for (std::size_t i = 0; i < form.length.size(); ++i)
+        if (const FoundDropper &dropper = droppers[i];
+            dropper.link.form.find_direction && !dropper.is_given() && form.tension[i] > 0.)
+          scene.links.push_back(spring_between(dropper, sideways(scene, dropper.link),
+                                               form.tension[i] / form.length[i]));
+    }
+
+    /// The static state of a scene.
+    class AtRest
+    {
+    public:
+      AtRest(const Scene &scene, const SolverParameters &parameters)
+          : structure(scene), constraints(scene_constraints(scene, structure)),
+            state(static_equilibrium(structure, constraints, parameters, 0.))
+      {
+      }
+
+      double multiplier(const std::size_t link) const
+      {
+        return state.multiplier[constraints.index_of_link(link)];
+      }
+
+      /// Of the ends of a dropper, along a direction [m].
+      double distance(const FoundDropper &dropper, const Coordinates &direction) const
+      {
+        std::vector<Term> terms;
+        structure.motion(dropper.link.to, false, direction, 1., terms);
+        structure.motion(dropper.link.from, false, direction, -1., terms);
+        return dot(dropper.between, direction) + evaluate(terms, state.displacement);
+      }
+
+    private:
+      const SceneBodies structure;
+      const Constraints constraints;
+      const StaticState state;
+    };
+
     /// Bilateral constraints that hold the `to` ends: their multipliers are minus the tensions. 0
-    /// for ropes.
+    /// for ropes and for droppers of a given length.
     std::vector<double> tensions(const Scene &base, const std::vector<FoundDropper> &droppers,
-                                 const SolverParameters &parameters)
+                                 const DropperForm &before, const SolverParameters &parameters)
     {
       Scene scene = base;
       for (const FoundDropper &dropper : droppers)
       {
         const Link &link = dropper.link;
         add_mass(link, scene);
+        if (dropper.is_given())
+        {
+          scene.links.push_back(turning(dropper));
+          continue;
+        }
         if (dropper.is_rope())
         {
           scene.links.push_back(spring_between(dropper, link.direction, dropper.force_density()));
@@ -141,19 +198,18 @@ namespace taut
         hold.gap = link.form.prescribed_displacement;
         scene.links.push_back(hold);
       }
-      const SceneBodies structure(scene);
-      const Constraints constraints = scene_constraints(scene, structure);
-      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
+      add_sideways(droppers, before, scene);
+      const AtRest rest(scene, parameters);
       std::vector<double> result;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
-        if (droppers[i].is_rope())
+        if (droppers[i].is_rope() || droppers[i].is_given())
         {
           result.push_back(0.);
           continue;
         }
         const Link &link = droppers[i].link;
-        const double tension = -state.multiplier[constraints.index_of_link(base.links.size() + i)];
+        const double tension = -rest.multiplier(base.links.size() + i);
         if (!(tension >= 0.))
         {
           throw EntryError(link.origin,
@@ -168,27 +224,6 @@ namespace taut
       return result;
     }
 
-    /// Distances of the ends of the droppers, each along a direction, in the static state of a
-    /// scene.
-    std::vector<double> distances(const Scene &scene, const std::vector<FoundDropper> &droppers,
-                                  const std::vector<Coordinates> &directions,
-                                  const SolverParameters &parameters)
-    {
-      const SceneBodies structure(scene);
-      const Constraints constraints = scene_constraints(scene, structure);
-      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
-      std::vector<double> result;
-      for (std::size_t i = 0; i < droppers.size(); ++i)
-      {
-        std::vector<Term> terms;
-        structure.motion(droppers[i].link.to, false, directions[i], 1., terms);
-        structure.motion(droppers[i].link.from, false, directions[i], -1., terms);
-        result.push_back(dot(droppers[i].between, directions[i]) +
-                         evaluate(terms, state.displacement));
-      }
-      return result;
-    }
-
     /**
      * The droppers under their tensions. If the direction of a dropper is found, `tension` is the
      * part V of its tension along the prescribed height. The lateral part follows from the
@@ -196,31 +231,41 @@ namespace taut
      * which no lateral force changes. This is a spring of stiffness V/h (a force density, H.-J.
      * Schek, Computer Methods in Applied Mechanics and Engineering 3 (1974), 115-134), so that the
      * static state is that of a linear scene. A rope of known pull is such a spring in both
-     * directions.
+     * directions. Next to droppers of a given length, which turn with both, the springs across the
+     * heights are there from the form before on.
      */
     DropperForm form_under(const Scene &base, const std::vector<FoundDropper> &droppers,
-                           const std::vector<double> &tension, const SolverParameters &parameters)
+                           const std::vector<double> &tension, const DropperForm &before,
+                           const SolverParameters &parameters)
     {
       Scene scene = base;
-      std::vector<Coordinates> directions;
+      std::vector<std::size_t> link_of; ///< of droppers of a given length
       bool finds_directions = false;
-      for (std::size_t i = 0; i < droppers.size(); ++i)
+      for (const FoundDropper &dropper : droppers)
       {
-        const Link &link = droppers[i].link;
+        const Link &link = dropper.link;
+        const double N = tension[link_of.size()];
+        link_of.push_back(scene.links.size());
         add_mass(link, scene);
-        if (droppers[i].is_rope())
-          scene.links.push_back(
-              spring_between(droppers[i], link.direction, droppers[i].force_density()));
+        if (dropper.is_given())
+          scene.links.push_back(turning(dropper));
+        else if (dropper.is_rope())
+          scene.links.push_back(spring_between(dropper, link.direction, dropper.force_density()));
         else
         {
-          scene.loads.push_back(force(link, link.from, tension[i]));
-          scene.loads.push_back(force(link, link.to, -tension[i]));
+          scene.loads.push_back(force(link, link.from, N));
+          scene.loads.push_back(force(link, link.to, -N));
         }
-        directions.push_back(link.direction);
         finds_directions |= link.form.find_direction;
       }
-      DropperForm form{tension, distances(scene, droppers, directions, parameters),
-                       std::vector<double>(droppers.size(), 0.)};
+      DropperForm form{tension, {}, std::vector<double>(droppers.size(), 0.)};
+      {
+        Scene high = scene;
+        add_sideways(droppers, before, high);
+        const AtRest rest(high, parameters);
+        for (const FoundDropper &dropper : droppers)
+          form.length.push_back(rest.distance(dropper, dropper.link.direction));
+      }
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         if (!(form.length[i] > 0.))
@@ -239,23 +284,24 @@ namespace taut
       if (!finds_directions)
         return form;
 
+      add_sideways(droppers, form, scene);
+      const AtRest rest(scene, parameters);
       for (std::size_t i = 0; i < droppers.size(); ++i)
-        if (droppers[i].link.form.find_direction)
+      {
+        const Link &link = droppers[i].link;
+        if (!link.form.find_direction)
+          continue;
+        form.sideways[i] = rest.distance(droppers[i], sideways(scene, link));
+        if (droppers[i].is_given())
         {
-          directions[i] = sideways(scene, droppers[i].link);
-          if (form.tension[i] > 0.)
-            scene.links.push_back(
-                spring_between(droppers[i], directions[i], form.tension[i] / form.length[i]));
+          form.length[i] = std::hypot(rest.distance(droppers[i], link.direction), form.sideways[i]);
+          form.tension[i] = rest.multiplier(link_of[i]);
+          continue;
         }
-      const std::vector<double> extent = distances(scene, droppers, directions, parameters);
-      for (std::size_t i = 0; i < droppers.size(); ++i)
-        if (droppers[i].link.form.find_direction)
-        {
-          const double length = std::hypot(form.length[i], extent[i]);
-          form.tension[i] *= length / form.length[i];
-          form.length[i] = length;
-          form.sideways[i] = extent[i];
-        }
+        const double length = std::hypot(form.length[i], form.sideways[i]);
+        form.tension[i] *= length / form.length[i];
+        form.length[i] = length;
+      }
       return form;
     }
 
@@ -275,27 +321,51 @@ namespace taut
   DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
                         const SolverParameters &parameters)
   {
+    // Rounding of the heights of a long line keeps changes of lengths above `settled`, but not
+    // above `rounding`, which are a hundredth of a newton for a dropper of 1e5 N/m and 1 m.
+    constexpr double settled = 1e-12, rounding = 1e-7, not_less = .5;
     constexpr int max_iterations = 30;
+    const auto n_given = std::count_if(droppers.begin(), droppers.end(),
+                                       [](const FoundDropper &d) { return d.is_given(); });
+    const bool is_mixed = n_given > 0 && n_given < static_cast<long>(droppers.size());
+    // The constraint at the lower end of a dropper carries the half of its mass that is there. The
+    // tensions of many droppers follow their lengths by that, without another equilibrium.
+    constexpr std::size_t many = 200;
+    const bool weigh =
+        droppers.size() > many && std::all_of(droppers.begin(), droppers.end(),
+                                              [](const FoundDropper &d) {
+                                                return !d.is_rope() && !d.is_given() &&
+                                                       d.link.to.kind == Attachment::Kind::wire;
+                                              });
+    std::vector<double> tension;
+    DropperForm before;
+    double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0;; ++iteration)
     {
-      const DropperForm form =
-          form_under(base, droppers, tensions(base, droppers, parameters), parameters);
+      if (iteration == 0 || !weigh)
+        tension = tensions(base, droppers, before, parameters);
+      const DropperForm form = form_under(base, droppers, tension, before, parameters);
       double change = 0.;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         Link &link = droppers[i].link;
         const double length = droppers[i].length_over(form.length[i]);
-        if (link.form.mass_per_length > 0.)
+        if (link.form.mass_per_length > 0. || is_mixed)
           change = std::max(change, std::fabs(length - link.length) / length);
+        tension[i] += .5 * link.form.mass_per_length * (length - link.length) *
+                      dot(base.gravity, link.direction);
         link.length = length;
       }
-      if (change < 1e-12)
+      if (change < settled || (change < rounding && change > not_less * last))
         return form;
       if (iteration + 1 == max_iterations)
         throw EntryError(
             droppers.front().link.origin,
             "the dropper lengths do not settle: their weight decides the shape of the wires. "
             "Check the mass per length of the droppers.");
+      last = change;
+      if (is_mixed)
+        before = form;
     }
   }
 
@@ -304,7 +374,7 @@ namespace taut
   {
     const double extent = form.length[i], N = form.tension[i];
     link.length = dropper.length_over(extent);
-    if (link.form.axial_stiffness > 0.)
+    if (link.form.axial_stiffness > 0. && !dropper.is_given())
       link.stiffness = link.form.axial_stiffness / link.length;
     double elongation = link.elongation(N);
     if (dropper.is_rope())
@@ -316,6 +386,11 @@ namespace taut
     }
     if (link.form.find_direction)
       set_direction(scene, N, extent, form.sideways[i], dropper.between, link);
+    if (dropper.is_given())
+    {
+      link.gap = link.unstressed_length - dot(dropper.between, link.direction);
+      return;
+    }
     // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
     link.gap = extent - dot(dropper.between, link.direction) - link.elongation(N);
     link.unstressed_length = link.length - elongation;

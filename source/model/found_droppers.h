@@ -12,8 +12,9 @@
 
 namespace taut
 {
-  /// A dropper whose length is found. With a pull it is a rope whose ends are apart by `run` across
-  /// its direction: a spring of constant force density.
+  /// A dropper whose length is found, or of a given length and only its direction. With a pull it
+  /// is a rope whose ends are apart by `run` across its direction: a spring of constant force
+  /// density.
   struct FoundDropper
   {
     Link link;           ///< with the `length` that its mass has [m]
@@ -21,6 +22,7 @@ namespace taut
     double run = 0.;     ///< 0: no rope [m]
 
     bool is_rope() const { return run > 0.; }
+    bool is_given() const { return link.unstressed_length > 0.; }
 
     /// Of a rope: tension over length [N/m].
     double force_density() const { return link.form.pull / run; }
@@ -29,7 +31,13 @@ namespace taut
     double length_over(const double extent) const { return std::hypot(extent, run); }
   };
 
-  /// Links of a scene whose lengths are found. Throws EntryError for a rope without a run.
+  /// Whether form finding changes a link.
+  inline bool is_found(const Link &link)
+  {
+    return link.form.find_length || link.form.find_direction;
+  }
+
+  /// Links of a scene that are found. Throws EntryError for a rope without a run.
   std::vector<FoundDropper> found_droppers(const Scene &scene, const std::vector<Link> &links);
 
   /// Half of the mass of a dropper on each of its ends.

@@ -32,6 +32,13 @@ namespace taut
       return rows;
     }
 
+    /// Whether lengths are a folder, not lists of numbers.
+    bool is_folder(const std::string &lengths)
+    {
+      return lengths.find_first_of(",;") == std::string::npos &&
+             lengths.find_first_not_of("0123456789.:+-eE ") != std::string::npos;
+    }
+
     /// One value for all masts, or one for each.
     std::vector<double> at_masts(const std::vector<double> &list, const std::size_t n_masts,
                                  const std::string &entry)
@@ -144,7 +151,9 @@ namespace taut
         Anything());
     prm.add_parameter("Lengths", lengths,
                       "Unstressed length of each dropper; a list as Positions; empty: found from "
-                      "heights and pre-sag [m]",
+                      "heights and pre-sag. Of a line as it was built: the folder of the results "
+                      "of an earlier run, relative to the parameter file, whose lengths are kept "
+                      "[m]",
                       Anything());
     prm.leave_subsection();
   }
@@ -200,6 +209,13 @@ namespace taut
     LineLayout result = table.empty() ? from_lists(section) : from_table(section);
     result.begin = begin;
     result.offset = offset;
+    if (is_folder(lengths))
+      result.built_in = lengths;
+    for (const std::vector<LineDropper> &span : result.spans)
+      for (const LineDropper &dropper : span)
+        if (!result.built_in.empty() && dropper.length > 0.)
+          throw EntryError(section + "/Droppers/Lengths",
+                           "'" + table + "' has lengths, too; leave one of both out");
     constexpr double longest = 1e9;
     const std::string entry = section + (!table.empty()         ? "/Line"
                                          : span_lengths.empty() ? "/Span length"
@@ -258,7 +274,7 @@ namespace taut
       return result;
     };
     const auto places = rows(positions, "Positions"), sags = rows(pre_sag, "Pre-sag"),
-               given = rows(lengths, "Lengths");
+               given = rows(is_folder(lengths) ? "" : lengths, "Lengths");
     for (std::size_t i = 0; i < n; ++i)
     {
       const std::vector<double> &own = row_of_span(places, i), &sag = row_of_span(sags, i),

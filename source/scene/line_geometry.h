@@ -30,6 +30,7 @@ namespace taut
     double x = 0.;       ///< from the begin of the line
     double pre_sag = 0.; ///< depth of the contact wire below the line between its heights
     double length = 0.;  ///< unstressed; 0: found from the height
+    double built = 0.;   ///< under its force where its stiffness and mass are known; 0: unstressed
   };
 
   /// Where the parts of one tension length are.
@@ -39,6 +40,7 @@ namespace taut
     double offset = 0.; ///< z of the straight wires [m]
     std::vector<LineMast> masts;
     std::vector<std::vector<LineDropper>> spans; ///< droppers between each mast and the next
+    std::string built_in; ///< folder of the results that have their lengths; empty: none
 
     double length() const { return masts.back().x; }
 

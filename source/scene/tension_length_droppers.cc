@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Droppers, stitch wires and mid-points of a tension
 // length, and its checks.
+#include "built_lengths.h"
 #include "tension_length.h"
 
 #include <taut/base/exceptions.h>
@@ -80,8 +81,17 @@ namespace taut
     }
     else
     {
-      link.length = link.unstressed_length = dropper.length;
+      link.unstressed_length = dropper.length;
+      link.length = dropper.built > 0. ? dropper.built : dropper.length;
       link.gap = dropper.length - (scene.wires[messenger].a.y - scene.wires[contact].a.y);
+      if (items.droppers.axial_stiffness > 0.)
+        link.stiffness = items.droppers.axial_stiffness / link.length;
+      link.form.find_direction = items.is_in_space;
+      const double half = .5 * items.droppers.mass_per_length * link.length;
+      for (const Attachment *const end : {&link.from, &link.to})
+        if (half > 0.)
+          scene.point_masses.push_back(
+              {link.name, link.origin, end->index, {end->position}, half, true});
     }
     if (link.from.index != messenger && items.droppers.messenger_clamp_mass > 0.)
       scene.point_masses.push_back({link.name + " clamp",
@@ -102,6 +112,27 @@ namespace taut
     const std::vector<double> heights = line.heights(places);
     std::vector<double> on_messenger;
     std::vector<std::vector<double>> held(contacts.size());
+    const auto hangs = [&](const std::size_t i, const std::size_t k)
+    { return !items.hangs_in_turn || i % contacts.size() == k; };
+    const auto name_of = [&](const std::size_t k)
+    { return (k == 0 ? "" : "twin ") + named("dropper") + " "; };
+    std::vector<std::vector<std::vector<LineDropper>>> spans(contacts.size(), line.spans);
+    if (!line.built_in.empty())
+    {
+      const std::string entry = section + "/Droppers/Lengths";
+      const CsvTable built(line.built_in + "/droppers.csv", entry);
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+        for (std::size_t span = 0; span < line.spans.size(); ++span)
+        {
+          std::vector<LineDropper *> own;
+          for (std::size_t i = 0; i < spans[k][span].size(); ++i)
+            if (hangs(i, k))
+              own.push_back(&spans[k][span][i]);
+          take_lengths(built, entry, name_of(k), scene.wires[contacts[k]].name,
+                       begin() + line.masts[span].x, begin() + line.masts[span + 1].x, begin(),
+                       own);
+        }
+    }
     std::size_t next = 0;
     for (std::size_t span = 0; span < line.spans.size(); ++span)
       for (std::size_t i = 0; i < line.spans[span].size(); ++i, ++next)
@@ -113,12 +144,10 @@ namespace taut
         index.insert(0, std::to_string(line.spans[span].size()).size() - index.size(), '0');
         for (std::size_t k = 0; k < contacts.size(); ++k)
         {
-          if (items.hangs_in_turn && i % contacts.size() != k)
+          if (!hangs(i, k))
             continue;
-          add_dropper(dropper, heights[next],
-                      (k == 0 ? "" : "twin ") + named("dropper") + " " + std::to_string(span + 1) +
-                          "." + index,
-                      contacts[k]);
+          add_dropper(spans[k][span][i], heights[next],
+                      name_of(k) + std::to_string(span + 1) + "." + index, contacts[k]);
           held[k].push_back(dropper.x);
           if (scene.links.back().from.index == messenger)
             on_messenger.push_back(dropper.x);
@@ -211,16 +240,12 @@ namespace taut
     const std::string entry = section + "/Droppers/Positions";
     const double same =
         std::min(same_place(scene.wires[contacts.front()]), same_place(scene.wires[messenger]));
-    bool has_lengths = false;
     for (std::size_t span = 0; span < line.spans.size(); ++span)
     {
       const double begin = line.masts[span].x, length = line.masts[span + 1].x - begin;
       std::vector<double> sorted;
       for (const LineDropper &dropper : line.spans[span])
-      {
         sorted.push_back(dropper.x - begin);
-        has_lengths |= dropper.length > 0.;
-      }
       std::sort(sorted.begin(), sorted.end());
       for (std::size_t i = 0; i < sorted.size(); ++i)
       {
@@ -232,13 +257,6 @@ namespace taut
                                           " m; remove one, or give one the stiffness of both"));
       }
     }
-    if (items.droppers.axial_stiffness > 0. && has_lengths)
-      throw EntryError("Catenary/Droppers/Axial stiffness", "with given Lengths use Stiffness");
-    if (items.is_in_space && has_lengths)
-      throw EntryError(section + "/Droppers/Lengths",
-                       "they are for a line in the plane. With Stagger, Wind or Lateral component "
-                       "the directions of the droppers are found with their lengths; give the "
-                       "Pre-sag instead");
   }
 
   /// A rail has no messenger wire, and moves in the plane.

@@ -60,7 +60,7 @@ namespace taut
       log << to_text(std::setprecision(3), "  '", line.contact, "' at ", line.speed, " m/s under '",
                      line.wire, "', whose waves have ", line.wave_speed, " m/s: v/c ",
                      line.speed / line.wave_speed, ", Doppler factor ", line.doppler,
-                     line.reflection > 0.
+                     line.amplification > 0.
                          ? to_text(std::setprecision(3), ", reflection at droppers ",
                                    line.reflection, ", amplification ", line.amplification)
                          : std::string(),
@@ -125,6 +125,17 @@ namespace taut
           << " with the direction from end to end at each time\n";
     if (links.size() > 0 && links.varying_rows().empty())
       log << "  no moving link: the interface operator is constant\n";
+    const Scene asked = parameters.scene();
+    const std::size_t n_found =
+        std::count_if(asked.links.begin(), asked.links.end(),
+                      [](const Link &link) { return link.form.find_length; });
+    if (n_found > 0)
+      log << "  " << counted(n_found, "length") << " of droppers found anew for these heights, "
+          << "tensions and masses; "
+          << (parameters.generator_name == "catenary"
+                  ? "'Droppers/Lengths = " + parameters.output.folder + "'"
+                  : "the 'cut length' of droppers.csv as Length")
+          << " keeps the line as built when entries change\n";
     if (grounded_links.empty())
       return;
     log << "  at held ends of cables, which stand like the ground:";
@@ -351,7 +362,8 @@ namespace taut
     std::sort(masts.begin(), masts.end());
     TableFile file(parameters.output.folder + "/droppers.csv",
                    {"dropper", "upper wire", "lower wire", "x [m]", "from the support before [m]",
-                    "height of the lower end [m]", "cut length [m]", "static force [N]"});
+                    "height of the lower end [m]", "cut length [m]", "static force [N]",
+                    "length as built [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link() || !is_dropper_between_wires(model.links[links[i].link]))
@@ -362,7 +374,7 @@ namespace taut
       file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
            << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1))
            << at.y + heights[links[i].link] << link.unstressed_length
-           << forces_at_rest.at(links[i].name);
+           << forces_at_rest.at(links[i].name) << link.length;
       file.end_line();
     }
     file.close();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the lengths of droppers in start.csv are those that the entry Lengths takes: a line with
-// them has the state at rest of the line whose lengths were found. Sources: the found line itself;
-// N/k, the stretch of a dropper.
+// them has the state at rest of the line whose lengths were found, and a folder of results keeps a
+// line as it was built. Sources: the found line itself; N/k, the stretch of a dropper; strings
+// under a force in closed form.
 #include "scene_tests.h"
+
+#include <map>
 
 using namespace verification;
 
@@ -62,4 +65,124 @@ TEST(DropperLengths, of_start_csv_give_the_same_state_at_rest)
   }
   figure("line with given lengths, largest distance from the line of found ones", worst, "m");
   EXPECT_LT(worst, 1e-9);
+}
+
+namespace
+{
+  /// A string of 40 m on one dropper in its middle, under another.
+  std::string one_dropper(const std::string &more = "")
+  {
+    return R"(Generator = catenary
+Start = equilibrium
+Catenary: Number of spans = 1; Span length = 40; Pantographs =
+Catenary/Contact wire: Model = string; Mass per length = 1; Tension = 10000; Element size = 1
+Catenary/Messenger wire: Model = string; Mass per length = 0.8; Tension = 12000; Element size = 1
+Catenary/Supports: Arm mass = 0
+Catenary/Droppers: Positions = 20
+Time: Step = 1e-3; End = 0; Scheme = backward Euler
+)" + more;
+  }
+
+  /// Forces of the droppers at rest, by name.
+  std::map<std::string, double> forces_of(Session &session)
+  {
+    std::map<std::string, double> forces;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          for (std::size_t i = 0; i < view.scene.links.size(); ++i)
+            forces[view.scene.links[i].name] =
+                view.state.multiplier[view.constraints.index_of_link(i)];
+        });
+    return forces;
+  }
+} // namespace
+
+// The contact wire is level at the dropper: half of its weight, 20 g, hangs there. With another
+// tension T' it would carry itself: found anew, the length changes and the force does not. As it
+// was built, L + N / k = 1.2 - (m L^2 / 8 + N L / 4) / T + (m' L^2 / 8 - N L / 4) / T'.
+TEST(DropperLengths, of_a_line_as_built_stay_where_the_tension_changes)
+{
+  const double g = 9.81, k = 1e5, N = 20. * g,
+               length = 1.2 - (.8 * g * 200. + 10. * N) / 12000. - N / k,
+               kept = (1.2 - length - .8 * g * 200. / 12000. + g * 200. / 8000.) /
+                      (1. / k + 10. / 12000. + 10. / 8000.);
+  Session built(one_dropper());
+  EXPECT_NEAR(forces_of(built).at("dropper 1.1"), N, 1e-8);
+  EXPECT_TRUE(has(built.log(), "  1 length of droppers found anew")) << built.log();
+  EXPECT_TRUE(has(built.log(), "'Droppers/Lengths = " + built.folder() + "'")) << built.log();
+  const std::string slacker = "Catenary/Contact wire: Tension = 8000\n";
+  Session anew(one_dropper(slacker)),
+      as_built(one_dropper(slacker), {"Catenary/Droppers/Lengths=" + built.folder()});
+  EXPECT_NEAR(forces_of(anew).at("dropper 1.1"), N, 1e-8);
+  EXPECT_NEAR(forces_of(as_built).at("dropper 1.1"), kept, 1e-8);
+  EXPECT_GT(kept, N + 1.);
+  EXPECT_FALSE(has(as_built.log(), "found anew")) << as_built.log();
+}
+
+// Stiffness EA over length, mass, stagger, twin wires and unequal spans: the same line again.
+TEST(DropperLengths, of_results_give_the_same_line)
+{
+  const std::string line = one_dropper(R"(Catenary: Span lengths = 40, 50, 30; Contact wires = 2
+Catenary/Droppers: Positions = 5, 20, 35; 5, 15, 25, 35, 45; 8, 22; Axial stiffness = 1e5
+  ; Mass per length = 0.14
+)");
+  for (const char *const stagger : {"0", "0.2"})
+  {
+    const Overrides aside = {"Catenary/Contact wire/Stagger=" + std::string(stagger)};
+    Session built(line, aside);
+    const auto expected = forces_of(built);
+    Session again(line, aside + Overrides{"Catenary/Droppers/Lengths=" + built.folder()});
+    const auto found = forces_of(again);
+    ASSERT_EQ(found.size(), 20u);
+    for (const auto &[name, force] : expected)
+      EXPECT_NEAR(found.at(name), force, 1e-6 * force) << name << ", stagger " << stagger;
+  }
+}
+
+// The others keep their lengths: those of the list without it.
+TEST(DropperLengths, of_results_stay_where_a_dropper_breaks_or_moves)
+{
+  const auto with = [](const std::string &positions)
+  { return one_dropper("Catenary/Droppers: Positions = " + positions + "\n"); };
+  Session built(with("8, 16, 24, 32"));
+  forces_of(built);
+  const std::vector<double> cut = read_table(built.folder() + "/droppers.csv").at("cut length [m]");
+  const auto expect_lengths = [&](const std::string &positions, const std::vector<double> &lengths)
+  {
+    std::string list = "Catenary/Droppers/Lengths=";
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      list += (i > 0 ? ", " : "") + number(lengths[i]);
+    Session listed(with(positions), {list}),
+        kept(with(positions), {"Catenary/Droppers/Lengths=" + built.folder()});
+    EXPECT_EQ(forces_of(kept), forces_of(listed)) << positions;
+  };
+  expect_lengths("8, 24, 32", {cut[0], cut[2], cut[3]});
+  expect_lengths("8, 16, 26, 32", cut);
+  EXPECT_TRUE(
+      has(error_of(
+              [&] { Session(with("8, 17, 24"), {"Catenary/Droppers/Lengths=" + built.folder()}); }),
+          "none of them at 17 m"));
+}
+
+// A line of equal spans has the lengths of ten spans, whatever its number of spans.
+TEST(DropperLengths, settle_for_any_number_of_spans)
+{
+  const auto lengths = [](const int n_spans)
+  {
+    Session session(scene_file("en50318_2002_250"),
+                    {"Time/End=0", "Catenary/Number of spans=" + std::to_string(n_spans),
+                     "Catenary/Uplift positions=", "Statistics/Window=",
+                     "Catenary/Droppers/Axial stiffness=1e5",
+                     "Catenary/Droppers/Mass per length=0.14"});
+    std::vector<double> result;
+    for (const taut::Link &link : session.simulation().scene().links)
+      if (link.name.find("dropper 5.") == 0)
+        result.push_back(link.unstressed_length);
+    return result;
+  };
+  const std::vector<double> expected = lengths(10);
+  ASSERT_EQ(expected.size(), 9u);
+  for (const int n_spans : {30, 200})
+    EXPECT_LT(largest_difference(lengths(n_spans), expected), 1e-7) << n_spans;
 }

@@ -236,6 +236,49 @@ TEST(OverheadLineInSpace, droppers_and_stagger_at_rest_are_those_of_ropes_that_t
   figure("force of a steady arm", found.arm, "N");
 }
 
+namespace
+{
+  /// The entry Lengths of all spans.
+  std::string list_of(const std::array<double, Span::n> &lengths)
+  {
+    std::string list = "Catenary/Droppers/Lengths=";
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      list += (i > 0 ? ", " : "") + number(lengths[i]);
+    return list;
+  }
+} // namespace
+
+TEST(OverheadLineInSpace, given_lengths_hang_as_ropes_that_turn)
+{
+  // Longer and shorter ropes than those that hold the wire level, one of them slack.
+  const Found level = find({stagger});
+  Span span;
+  span.stagger = .2;
+  span.rope = level.rope;
+  span.rope[2] += .004;
+  span.rope[4] += .03;
+  span.rope[6] -= .002;
+  const Found found = find({stagger, list_of(span.rope)});
+  span.solve();
+  const auto [place, tension] = difference(found, span);
+  EXPECT_EQ(span.tension[4], 0.);
+  EXPECT_GT(std::fabs(span.tension[6] - level.tension[6]), 10.);
+  EXPECT_LT(figure("given lengths with stagger against ropes that turn", place, "m"), 1e-8);
+  EXPECT_LT(figure("their tensions, relative", tension), 1e-7);
+}
+
+TEST(OverheadLineInSpace, given_lengths_in_wind_are_those_that_were_found)
+{
+  const Overrides windy = {stagger, contact_wind + "3", messenger_wind + "3"};
+  const Found found = find(windy, 3.),
+              given = find(windy + Overrides{list_of(find({stagger}).rope)}, 3.);
+  for (std::size_t i = 0; i < Span::n; ++i)
+  {
+    EXPECT_NEAR(given.tension[i], found.tension[i], 1e-6 * found.tension[i]) << i;
+    EXPECT_NEAR(given.place[1][i][1], found.place[1][i][1], 1e-9) << i;
+  }
+}
+
 TEST(OverheadLineInSpace, wind_turns_the_droppers_as_ropes_but_for_the_square_of_the_angle)
 {
   const Found still = find({stagger});

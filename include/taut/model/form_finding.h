@@ -21,10 +21,11 @@ namespace taut
    * equilibrium without_sliding_contacts() their `to` ends then have the prescribed displacement.
    * There are two stages: the prescribed heights as bilateral constraints give the tensions; the
    * `from` bodies under these tensions give the lengths. The stages repeat until the lengths
-   * converge, if stiffness and weight depend on the lengths. Where the direction is found, too,
-   * each dropper is in line with its tension in the static state. A dropper that turns out of this
-   * line is pulled back by tension over length [N/m], taut or slack (the geometric stiffness, the
-   * force density of H.-J. Schek, Comput. Methods Appl. Mech. Engrg. 3 (1974)).
+   * converge to rounding, if stiffness and weight depend on the lengths. Where the direction is
+   * found, too, each dropper is in line with its tension in the static state. A dropper that turns
+   * out of this line is pulled back by tension over length [N/m], taut or slack (the geometric
+   * stiffness, the force density of H.-J. Schek, Comput. Methods Appl. Mech. Engrg. 3 (1974)). A
+   * dropper of a given length, whose direction alone is found, is a link that turns in this state.
    *
    * Returns the scene with gap, length, stiffness and direction of these links, and with half of
    * the mass of each link on each of its ends. The form comes from @p shared if it is known there.
