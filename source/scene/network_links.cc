@@ -317,8 +317,8 @@ namespace taut
                  : std::vector<std::string>();
     }
 
-    /// A link to each wire over a strip, which moves along the first wire with the Speed, and along
-    /// the others as it crosses them. Without a start of its own it is below `From` along the wire,
+    /// A link to each wire over a strip, which moves along all wires with the Speed, in the
+    /// direction of the first one. Without a start of its own it is below `From` along the wire,
     /// also before its begin.
     void add_strip(Link link, const std::vector<std::string> &wires, const std::string &speed,
                    Scene &scene)
@@ -335,17 +335,17 @@ namespace taut
         const std::size_t index = find_name(scene.wires, name);
         const Wire &wire = scene.wires[index];
         link.name = first_name + " on " + name;
-        const double along = way ? dot(wire.tangent(), *way) : 1.;
         way = way.value_or(wire.tangent());
+        const double along = dot(wire.tangent(), *way);
         if (!(std::fabs(along) > least_along))
           throw EntryError(link.origin + "/To", "wire '" + name +
                                                     "' is across the first one, along which the "
                                                     "strip moves; leave it out");
-        const Speed of_wire = parse_speed(speed, link.origin + "/Speed", along);
+        const Speed of_wire = parse_speed(speed, link.origin + "/Speed", std::copysign(1., along));
         link.speed = of_wire.constant;
         link.travel = of_wire.travel;
         link.to = {Attachment::Kind::wire, index,
-                   dot(place(scene, link.from) - wire.a, *way) / along};
+                   dot(place(scene, link.from) - wire.a, wire.tangent())};
         if (at != std::string::npos)
         {
           const std::vector<double> start =

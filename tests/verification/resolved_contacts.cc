@@ -201,7 +201,7 @@ TEST(ResolvedContacts, steps_follow_the_stiffness_that_a_law_reaches)
   EXPECT_LT(formula.n_steps, 300);
   EXPECT_NEAR(formula.velocity,
               -rebound([](const double u) { return 50. * (std::exp(u / .005) - 1.); }, c), .02);
-  EXPECT_GT(stiff.n_steps, 120);
+  EXPECT_GT(stiff.n_steps, 90);
   EXPECT_LT(stiff.n_steps, 600);
   EXPECT_NEAR(stiff.velocity,
               -rebound([](const double u) { return 1e4 * u + 9.9e5 * std::max(0., u - .005); }, c),
