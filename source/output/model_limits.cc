@@ -3,18 +3,22 @@
 #include <taut/base/instruction_set.h>
 #include <taut/base/text.h>
 #include <taut/cable/cable.h>
+#include <taut/mechanism/rigid_body.h>
 #include <taut/output/model_limits.h>
 #include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace taut
 {
   namespace
   {
-    constexpr double largest_slope = .1;  ///< [rad]
+    constexpr double largest_slope = .1; ///< [rad]
+    constexpr double largest_turn = 1.;  ///< of a rigid body from its start to rest [rad]
+    constexpr double tiny = std::numeric_limits<double>::min();
     constexpr double least_samples = 10.; ///< in a period of the filter frequency
     constexpr std::size_t most_slopes = 2000, most_distances = 300; ///< along a wire
 
@@ -254,8 +258,38 @@ namespace taut
     }
   }
 
+  /// Compares the equilibrium at the start with the place that is given: by which angle the
+  /// vertical of each rigid body turns, or the body, if there is no gravity.
+  void ModelLimits::record_turned_bodies(const StepView &step)
+  {
+    for (std::size_t i = 0; i < step.scene.bodies.size(); ++i)
+    {
+      double angle = 0.;
+      for (const std::size_t k : step.structure.indices_of_body(i))
+        if (k != Structure::elsewhere)
+          if (const auto *const body = dynamic_cast<const RigidBody *>(&step.structure[k]))
+          {
+            std::vector<double> U = step.reference.displacement[k];
+            for (std::size_t j = 0; j < U.size(); ++j)
+              U[j] += step.state.U[k][j];
+            const Coordinates turn = body->rotation(U), down = step.scene.gravity;
+            const double about_vertical = dot(turn, down) / std::max(norm(turn) * norm(down), tiny);
+            angle = std::acos(std::clamp(1. - (1. - std::cos(norm(turn))) *
+                                                  (1. - about_vertical * about_vertical),
+                                         -1., 1.));
+          }
+      angle = step.structure.communicator().max(angle);
+      if (angle / largest_turn > turned.excess)
+        turned = {angle / largest_turn, angle, largest_turn, 0., step.state.time, i};
+    }
+    if (turned.excess > 1.)
+      turned_body = step.scene.bodies[turned.line].name;
+  }
+
   void ModelLimits::record(const StepView &step)
   {
+    if (n_calls == 0)
+      record_turned_bodies(step);
     if (n_calls++ % interval != 0)
       return;
     solids.record(step);
@@ -321,7 +355,8 @@ namespace taut
   void ModelLimits::store(Archive &archive)
   {
     archive &n_calls;
-    for (Extreme *extreme : {&slope, &distance})
+    archive &turned_body;
+    for (Extreme *extreme : {&slope, &distance, &turned})
       archive & extreme->excess & extreme->value & extreme->limit & extreme->position &
           extreme->time & extreme->line;
     solids.store(archive);
@@ -362,6 +397,15 @@ namespace taut
                    " s: it passes through it, for no contact between them is part of "
                    "the model. Check loads and the distance"),
            distance.value, distance.limit, "m", distance.time});
+    if (turned.excess > 1.)
+      result.push_back(
+          {"equilibrium",
+           to_text(std::setprecision(4), "the equilibrium at the start tilts '", turned_body,
+                   "' by ", turned.value,
+                   " rad from its place in the scene, which may not be the one that is meant. "
+                   "Check supports, stops and the centre of mass, or give the body "
+                   "near its equilibrium"),
+           turned.value, turned.limit, "rad", turned.time});
     const std::vector<Warning> of_solids = solids.warnings();
     result.insert(result.end(), of_solids.begin(), of_solids.end());
     return result;

@@ -20,8 +20,17 @@ namespace taut
     /// Sliding above which there is a warning, in elements: another element is nearer then.
     constexpr double small_sliding = .5;
 
-    /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
-    constexpr double small_kink = .03;
+    /// Part of the elastic energy that may be where strains are not small.
+    constexpr double strained_part = .5;
+
+    /// Elastic energy that elements store as they cannot bend, over the rest.
+    constexpr double small_locking = .05;
+
+    /// Strains of a body that moves as a whole, over its turn.
+    constexpr double rounding = 1e-10;
+
+    /// Growth of a stretch or turn after which strains are looked at again.
+    constexpr double growth = 1.1;
 
     /// Depth between nodes above which there is a warning: over the face, at a contact that never
     /// carries, where there should have been a force; over how far the bodies came into each other,
@@ -33,19 +42,6 @@ namespace taut
 
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
-
-    /// Longest line between neighbours in the list of nodes of a face, for each surface node [m].
-    std::vector<double> element_lengths(const ContactSurface &surface)
-    {
-      std::vector<double> result(surface.points.size(), 0.);
-      for (const std::vector<unsigned int> &face : surface.faces)
-      {
-        const double length = norm(surface.points[face[1]] - surface.points[face[0]]);
-        for (const unsigned int node : face)
-          result[node] = std::max(result[node], length * (face.size() == 9 ? 2. : 1.));
-      }
-      return result;
-    }
   } // namespace
 
   SolidLimits::SolidLimits(const Scene &scene, const SceneBodies &structure)
@@ -73,7 +69,7 @@ namespace taut
   {
     const CustomBody &b = scene.bodies[body];
     const ContactSurface surface = b.type->surface({b.name, b.origin, scene.gravity}, {});
-    Turning turning{b.name, b.origin, b.type->largest_turn(), forms.size(), {}, {}};
+    Turning turning{b.name, b.origin, b.type->largest_turn(), body, forms.size(), {}, {}};
     const std::size_t n = surface.faces.size() * (surface.faces.front().size() - 1),
                       stride = (n + most_lines - 1) / most_lines;
     for (std::size_t f = 0; f < surface.faces.size(); f += std::max<std::size_t>(stride, 1))
@@ -93,35 +89,26 @@ namespace taut
     bodies.push_back(std::move(turning));
   }
 
-  /// Sets elements, kinks, and nodes between those of the master.
+  /// Sets elements, facets, and nodes between those of the master.
   void SolidLimits::describe(const Scene &scene, Sliding &contact) const
   {
     const ContactGeometry &geometry = contact.geometry;
-    const bool has_master = !geometry.master.points.empty(),
-               has_faces = geometry.slave.dim > 1 && (!has_master || geometry.master.dim > 1);
+    const bool has_master_faces =
+        geometry.slave.dim > 1 && !geometry.master.points.empty() && geometry.master.dim > 1;
     const std::vector<double> slave = element_lengths(geometry.slave),
                               master = element_lengths(geometry.master);
-    std::vector<double> slave_kinks, master_kinks;
-    if (has_faces && geometry.slave.degree == 2)
-      slave_kinks = kinks_at_nodes(geometry.slave);
-    if (has_faces && has_master && geometry.master.degree == 2)
-      master_kinks = kinks_at_nodes(geometry.master);
+    contact.facets = FacetLimits(geometry);
     contact.is_mortar = scene.contacts[contact.contact].method == SurfaceMethod::mortar;
     for (const SurfaceConstraint &c : geometry.constraints)
     {
-      double element = slave[c.node], kink = slave_kinks.empty() ? 0. : slave_kinks[c.node],
-             largest = 0.;
+      double element = slave[c.node], largest = 0.;
       for (const NodeWeight &w : c.master)
       {
         element = std::min(element, master[w.node]);
-        if (!master_kinks.empty())
-          kink = std::max(kink, master_kinks[w.node]);
         largest = std::max(largest, norm(w.weight));
       }
       contact.elements.push_back(element);
-      contact.kinks.push_back(kink);
-      contact.between.push_back(has_master && has_faces && !contact.is_mortar &&
-                                largest < 1. - at_node);
+      contact.between.push_back(has_master_faces && !contact.is_mortar && largest < 1. - at_node);
     }
   }
 
@@ -187,6 +174,7 @@ namespace taut
     forms.evaluate(step.state.U, values.data());
     step.structure.communicator().sum(values);
     record_turns(step.state.time);
+    record_strains(step);
     record_contacts(step);
     const Worst &t = worst[turn], &s = worst[sliding];
     if (t.excess > 1. && t.value > bodies[t.item].largest)
@@ -206,12 +194,75 @@ namespace taut
         const double across = norm(add_scaled(change, -along, chord)) / std::sqrt(square);
         // A line that points back has turned by more than a right angle.
         keep(turn, along > -1. ? across : std::atan2(across, 1. + along), small_turn, time, b, i);
+        bodies[b].stretch = std::max(bodies[b].stretch, std::fabs(along));
+        bodies[b].turn = std::max(bodies[b].turn, across);
       }
+  }
+
+  /// Looks at strains where a stretch or turn grew. That of most energy counts: waves of little
+  /// energy are shorter than elements.
+  void SolidLimits::record_strains(const StepView &step)
+  {
+    const Communicator &processes = step.structure.communicator();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+      Turning &body = bodies[b];
+      if (!(body.stretch > growth * body.seen_stretch || body.turn > growth * body.seen_turn))
+        continue;
+      body.seen_stretch = body.stretch;
+      body.seen_turn = body.turn;
+      Straining now;
+      for (const std::size_t k : step.structure.indices_of_body(body.body))
+      {
+        const auto *const strained = k == Structure::elsewhere
+                                         ? nullptr
+                                         : dynamic_cast<const StrainedBody *>(&step.structure[k]);
+        if (!strained)
+          continue;
+        std::vector<double> U = step.reference.displacement[k];
+        for (std::size_t i = 0; i < U.size(); ++i)
+          U[i] += step.state.U[k][i];
+        const Straining part = strained->straining(U);
+        now.energy += part.energy;
+        now.large += part.large;
+        now.locked += part.locked;
+        if (part.strain > now.strain)
+        {
+          now.strain = part.strain;
+          now.place = part.place;
+        }
+      }
+      const double largest = processes.max(now.strain), is_here = now.strain == largest ? 1. : 0.;
+      const Coordinates &x = now.place;
+      double sums[] = {now.energy,    now.large,     now.locked,   is_here,
+                       is_here * x.x, is_here * x.y, is_here * x.z};
+      processes.sum(sums, 7);
+      if (sums[0] > body.most.energy)
+      {
+        body.most = {sums[0],
+                     sums[1],
+                     sums[2],
+                     largest,
+                     {sums[4] / sums[3], sums[5] / sums[3], sums[6] / sums[3]}};
+        body.time = step.state.time;
+      }
+    }
+    worst[strain] = worst[locking] = {};
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+      const Straining &most = bodies[b].most;
+      if (most.large > strained_part * most.energy)
+        keep(strain, most.strain, small_strain, bodies[b].time, b, 0);
+      if (most.strain > rounding * std::max(small_strain, bodies[b].turn))
+        keep(locking, most.locked / (most.energy - most.locked), small_locking, bodies[b].time, b,
+             0);
+    }
   }
 
   void SolidLimits::record_contacts(const StepView &step)
   {
     const double time = step.state.time;
+    worst[facets] = {};
     for (std::size_t k = 0; k < contacts.size(); ++k)
     {
       Sliding &contact = contacts[k];
@@ -219,6 +270,10 @@ namespace taut
       std::size_t row = 0;
       while (step.constraints[row].contact != contact.contact)
         ++row;
+      contact.facets.record(step.state.multiplier.data() + row);
+      const double n = contact.facets.faces(), least = contact.facets.least_faces();
+      if (least / n > worst[facets].excess)
+        worst[facets] = {least / n, n, least, time, k, 0};
       for (std::size_t i = 0; i < all.size(); ++i, ++row)
       {
         if (!(step.state.multiplier[row] > 0.))
@@ -231,7 +286,6 @@ namespace taut
           const Coordinates along = add_scaled(motion, -dot(motion, all[i].normal), all[i].normal);
           keep(sliding, norm(along) / contact.elements[i], small_sliding, time, k, i);
         }
-        keep(facets, contact.kinks[i], small_kink, time, k, i);
         // Even one of these is too many.
         constexpr double none = std::numeric_limits<double>::min();
         if (all[i].uncovered > worst[overhang].value)
@@ -265,19 +319,36 @@ namespace taut
             << contact.left_out.size() << "; a Search distance takes them in\n";
   }
 
-  std::string SolidLimits::text_of(const Kind kind, const Worst &w) const
+  std::string SolidLimits::text_of_body(const Kind kind, const Worst &w) const
   {
+    const Turning &body = bodies[w.item];
     std::ostringstream out;
     out.precision(4);
     if (kind == turn)
-    {
-      const Turning &body = bodies[w.item];
       out << "a line on the boundary of '" << body.name << "' turns by " << w.value << " rad at "
           << '(' << body.places[w.place] << "), t = " << w.time
           << " s: the equations are those of small turns, up to " << w.limit
           << " rad. Check loads and supports; a body that moves far as a whole may be a rigid body";
-      return out.str();
-    }
+    else if (kind == strain)
+      out << "'" << body.name << "' is strained by " << w.value << " at (" << body.most.place
+          << "), t = " << w.time << " s, and by more than " << w.limit << " where "
+          << 100. * body.most.large / body.most.energy
+          << " % of its elastic energy is: the equations are those of small strains. Check loads "
+             "and Young's modulus";
+    else
+      out << "'" << body.name << "' is too stiff by about " << 100. * w.value
+          << " % or more, t = " << w.time
+          << " s: elements of degree 1 lock in bending with less than four through the thickness, "
+             "and with Poisson's ratios above 0.45. Take Degree = 2, or smaller elements";
+    return out.str();
+  }
+
+  std::string SolidLimits::text_of(const Kind kind, const Worst &w) const
+  {
+    if (kind == turn || kind == strain || kind == locking)
+      return text_of_body(kind, w);
+    std::ostringstream out;
+    out.precision(4);
     const Sliding &contact = contacts[w.item];
     const SurfaceConstraint &c = kind == search          ? contact.left_out[w.place]
                                  : kind == between_nodes ? contact.inner[w.place].constraint
@@ -299,13 +370,12 @@ namespace taut
     else if (kind == nodes_on_faces)
       out << "carries at " << at
           << ", between nodes of the master: nodes on faces do not pass a uniform pressure, and "
-             "pressures of single nodes are off by some ten per cent, resultants are not. "
+             "pressures of single nodes are off by some ten per cent, and on curved faces also "
+             "resultants are off. "
           << (contact.geometry.slave.dim == 2 ? "Take Method = mortar"
                                               : "Let the meshes match, or average over nodes");
     else if (kind == facets)
-      out << "acts at " << at << ", where faces of degree 2 have a kink of " << w.value
-          << " rad: they do not follow a curve, and pressures alternate. Name the curve in Curved "
-             "boundaries of the mesh, or take Degree = 1";
+      out << contact.facets.text();
     else if (kind == between_nodes)
     {
       const bool has_master = !contact.geometry.master.points.empty();
@@ -345,14 +415,17 @@ namespace taut
 
   std::vector<Warning> SolidLimits::warnings() const
   {
-    const char *const names[] = {"turn",   "sliding", "overhang",     "nodes on faces",
-                                 "facets", "search",  "between nodes"};
-    const char *const units[] = {"rad", "elements", "1", "1", "rad", "m", "m"};
+    const char *const names[] = {"turn",           "strain", "locking", "sliding",      "overhang",
+                                 "nodes on faces", "facets", "search",  "between nodes"};
+    const char *const units[] = {"rad", "1", "1", "elements", "1", "1", "faces", "m", "m"};
     std::vector<Warning> result;
-    for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search, between_nodes})
+    for (int k = 0; k < n_kinds; ++k)
+    {
+      const Kind kind = static_cast<Kind>(k);
       if (const Worst w = kind == between_nodes ? worst_between_nodes() : worst[kind];
           w.excess > 1.)
         result.push_back({names[kind], text_of(kind, w), w.value, w.limit, units[kind], w.time});
+    }
     return result;
   }
 } // namespace taut

@@ -32,18 +32,6 @@ namespace taut
       if (!(m.density >= 0.) || !std::isfinite(m.density))
         throw UserError("the density must not be negative, and it is " + std::to_string(m.density));
     }
-
-    /// Lame's constants; plane stress is plane strain with another lambda.
-    struct Lame
-    {
-      double lambda, mu;
-    };
-    Lame lame(const ElasticMaterial &m, const bool plane_stress)
-    {
-      const double mu = m.youngs_modulus / (2. * (1. + m.poissons_ratio)),
-                   lambda = 2. * mu * m.poissons_ratio / (1. - 2. * m.poissons_ratio);
-      return {plane_stress ? 2. * lambda * mu / (lambda + 2. * mu) : lambda, mu};
-    }
   } // namespace
 
   template <int dim>
@@ -57,6 +45,18 @@ namespace taut
       throw UserError("the mesh has cells of material " + std::to_string(id) +
                       ", of which no material is given");
     return found->second;
+  }
+
+  template <int dim>
+  std::pair<double, double>
+  ElasticSolid<dim>::Options::lame(const dealii::types::material_id id) const
+  {
+    const ElasticMaterial &m = material(id);
+    const double mu = m.youngs_modulus / (2. * (1. + m.poissons_ratio)),
+                 lambda = 2. * mu * m.poissons_ratio / (1. - 2. * m.poissons_ratio);
+    return {dim == 2 && plane_state == PlaneState::stress ? 2. * lambda * mu / (lambda + 2. * mu)
+                                                          : lambda,
+            mu};
   }
 
   template <int dim>
@@ -145,8 +145,7 @@ namespace taut
     {
       const Cell &cell = cells[number];
       values.reinit(cell);
-      const auto [lambda, mu] = lame(options.material(cell->material_id()),
-                                     dim == 2 && options.plane_state == PlaneState::stress);
+      const auto [lambda, mu] = options.lame(cell->material_id());
       k = 0.;
       for (const unsigned int q : values.quadrature_point_indices())
       {

@@ -43,27 +43,45 @@ namespace taut
       }
   }
 
-  std::vector<double> kinks_at_nodes(const ContactSurface &surface)
+  std::vector<double> heights_of_arcs(const ContactSurface &surface)
   {
-    constexpr double corner = .5;
+    constexpr double corner = .5, follows = .5;
+    static const std::vector<FaceEdge> line = {{{0., 0.}, {1., 0.}, 0, 1, 2}};
     const SurfaceGeometry geometry(surface);
     const NodeNormals normals(geometry);
     std::vector<std::vector<Coordinates>> at_node(surface.points.size());
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
       for (unsigned int i = 0; i < geometry.nodes(f).size(); ++i)
         at_node[geometry.nodes(f)[i]].push_back(normals.at(f, i));
+    const auto angle = [](const Coordinates &a, const Coordinates &b)
+    { return std::atan2(norm(cross(a, b)), dot(a, b)); };
+    const auto mean_normal = [&](const std::size_t f, const unsigned int i)
+    {
+      Coordinates sum;
+      for (const Coordinates &n : at_node[geometry.nodes(f)[i]])
+        if (angle(n, normals.at(f, i)) < corner)
+          sum = add_scaled(sum, 1., n);
+      return sum;
+    };
     std::vector<double> result(surface.points.size(), 0.);
-    for (std::size_t node = 0; node < result.size(); ++node)
-      for (const Coordinates &a : at_node[node])
-        for (const Coordinates &b : at_node[node])
-          if (const double angle = std::atan2(norm(cross(a, b)), dot(a, b)); angle < corner)
-            result[node] = std::max(result[node], angle);
-    // Where vertices stand back behind the middles of faces, only those carry.
-    std::vector<double> of_faces = result;
-    for (const std::vector<unsigned int> &face : surface.faces)
-      for (const unsigned int a : face)
-        for (const unsigned int b : face)
-          of_faces[a] = std::max(of_faces[a], result[b]);
-    return of_faces;
+    for (std::size_t f = 0; f < geometry.n_faces(); ++f)
+    {
+      const std::vector<unsigned int> &nodes = geometry.nodes(f);
+      double height = 0.;
+      for (const FaceEdge &edge :
+           surface.dim == 2 ? line : face_edges(geometry.form(f), surface.degree))
+      {
+        const Coordinates a = geometry.point(nodes[edge.first]),
+                          b = geometry.point(nodes[edge.second]);
+        const double of_arc =
+            norm(b - a) * angle(mean_normal(f, edge.first), mean_normal(f, edge.second)) / 8.;
+        if (surface.degree == 1 || norm(geometry.point(nodes[edge.middle]) -
+                                        scaled(.5, add_scaled(a, 1., b))) < follows * of_arc)
+          height = std::max(height, of_arc);
+      }
+      for (const unsigned int node : nodes)
+        result[node] = std::max(result[node], height);
+    }
+    return result;
   }
 } // namespace taut

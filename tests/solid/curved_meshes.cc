@@ -37,6 +37,47 @@ namespace
                           });
   }
 
+  /// A quarter of a ring of so many cells around and across: boundary 13 is its inner side, 12 the
+  /// outer, 10 and 11 are y = 0 and x = 0.
+  MeshFile quarter_ring_of(const unsigned int around, const unsigned int across, const double outer,
+                           const double inner)
+  {
+    return moved_cells<2>({around, across},
+                          [=](const dealii::Point<2> &p)
+                          {
+                            const double r = outer - (outer - inner) * p[1] / across,
+                                         angle = .5 * M_PI / around * p[0];
+                            return dealii::Point<2>(r * std::cos(angle), r * std::sin(angle));
+                          });
+  }
+
+  /// A hollow shaft in a hub, radii 10, 20 and 30 mm of steel in plane stress, 2.5 um too thick.
+  Ran press_fit(const unsigned int shaft, const unsigned int hub, const std::string &degree,
+                const std::string &more = "")
+  {
+    const MeshFile in = quarter_ring_of(shaft, 6, .02, .01),
+                   out = quarter_ring_of(hub, 6, .03, .02);
+    const std::string steel = "Young's modulus = 2.1e11; Poisson's ratio = 0.3; "
+                              "Plane state = stress; Symmetry boundaries = 10, 11; Degree = " +
+                              degree,
+                      curves = "; Curved boundaries = 12: circle, 0, 0; 13: circle, 0, 0";
+    return run(scene("equilibrium",
+                     body("shaft", "File = " + in.path() + curves, steel) +
+                         body("hub", "File = " + out.path() + curves, steel),
+                     contact("shaft: 12", "hub: 13", "Gap = -2.5e-6; " + more) + at_rest));
+  }
+
+  double mean_pressure(const Ran &found)
+  {
+    double force = 0., area = 0.;
+    for (std::size_t i = 0; i < found.forces.size(); ++i)
+    {
+      force += found.forces[i];
+      area += found.constraints[i].area;
+    }
+    return force / area;
+  }
+
   /// Elements of gmsh in a square or cube of 3 x 3 or 3 x 3 x 3 nodes.
   struct Elements
   {
@@ -177,7 +218,7 @@ TEST(SolidMeshes, a_mesh_from_a_file_follows_a_circle)
     for (const taut::SurfaceConstraint &c : found.constraints)
       least = std::fmin(least, norm(c.point));
     EXPECT_NEAR(least, follows ? 1. : chord, 1e-12);
-    EXPECT_EQ(has(found.log, "have a kink of"), !follows) << found.log;
+    EXPECT_EQ(has(found.log, "straight faces of degree 2"), !follows) << found.log;
   }
   EXPECT_TRUE(has(pressed("Curved boundaries = 13: circle, 0.1, 0").error, "on no one radius"));
   EXPECT_TRUE(has(pressed("Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
@@ -230,10 +271,39 @@ TEST(SolidMeshes, a_cylinder_from_a_file_is_pressed_as_by_hertz)
   EXPECT_LT(with, .03);
   EXPECT_GT(without, .1);
   EXPECT_LT(linear, .03);
-  EXPECT_FALSE(has(curved.log, "have a kink of")) << curved.log;
-  EXPECT_TRUE(has(facets.log, "have a kink of")) << facets.log;
+  EXPECT_FALSE(has(curved.log, "straight faces")) << curved.log;
+  EXPECT_TRUE(has(facets.log, "straight faces of degree 2")) << facets.log;
   EXPECT_TRUE(has(facets.log, "Curved boundaries")) << facets.log;
-  EXPECT_FALSE(has(straight.log, "have a kink of")) << straight.log;
+  EXPECT_FALSE(has(straight.log, "straight faces")) << straight.log;
+}
+
+// Claim: a shaft in a hub of straight faces that do not match is warned of, with the height of the
+// arcs, degree and size; with degree 2, and with nodes opposite each other, pressures are right.
+// Expected: Lame's pressure of thick rings in plane stress, 6.152 MPa; the height R (1 - cos(a /
+// 2)).
+TEST(SolidMeshes, a_shaft_in_a_hub_of_straight_faces)
+{
+  const double p = 2.5e-6 * 2.1e11 / (.02 * (5. / 3. + 13. / 5.)),
+               height = .02 * (1. - std::cos(M_PI / 4. / 13.));
+  EXPECT_NEAR(p, 6.152e6, 1e3);
+  for (const std::string method : {"mortar", "nodes to faces"})
+  {
+    const Ran linear = press_fit(17, 13, "1", "Method = " + method);
+    ASSERT_EQ(linear.error, "");
+    EXPECT_GT(std::fabs(mean_pressure(linear) / p - 1.), .3);
+    const std::size_t at = linear.log.find("straight faces on a curve that are ");
+    ASSERT_NE(at, std::string::npos) << linear.log;
+    EXPECT_NEAR(std::stod(linear.log.substr(at + 35)), height, .02 * height);
+    EXPECT_TRUE(has(linear.log, "Take Degree = 2")) << linear.log;
+    EXPECT_FALSE(has(linear.log, "resultants are not")) << linear.log;
+  }
+  const Ran quadratic = press_fit(17, 13, "2"), matched = press_fit(40, 40, "1");
+  for (const Ran *const found : {&quadratic, &matched})
+  {
+    ASSERT_EQ(found->error, "");
+    EXPECT_NEAR(mean_pressure(*found), p, 5e-3 * p);
+    EXPECT_FALSE(has(found->log, "Warning")) << found->log;
+  }
 }
 
 // Claim: hexahedra follow spheres and cylinders that an entry names. Expected: all nodes of their

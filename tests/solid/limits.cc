@@ -211,3 +211,139 @@ TEST(SolidLimits, nodes_beyond_the_search_distance_are_counted)
         << found.log;
   }
 }
+
+// Claim: a block that is strained by more than 5 % is warned of, in one piece and in parts, under
+// compression and shear. Expected: the given strain, and half of the given angle of shear.
+TEST(SolidLimits, strains_that_are_not_small_are_named)
+{
+  const auto warns = [](const Ran &found, const std::string &strain)
+  {
+    EXPECT_EQ(found.error, "");
+    EXPECT_TRUE(has(found.log, "is strained by " + strain)) << found.log;
+    EXPECT_EQ(std::count(found.warnings.begin(), found.warnings.end(), "strain"), 1);
+  };
+  const auto pressed = [](const std::string &by, const Overrides &more = {})
+  {
+    return run(scene("equilibrium",
+                     box("block", "4, 4 : 0, 0 : 1, 1",
+                         "Symmetry boundaries = 0, 2; Displacement = 3: , -" + by),
+                     "Time: Step = 0.1; End = 0.1\n"),
+               more);
+  };
+  EXPECT_FALSE(has(pressed("0.049").log, "Warning")) << pressed("0.049").log;
+  for (const char *const parts : {"1", "4"})
+    warns(pressed("0.051", {std::string("Partition/Number of substructures=") + parts}), "0.051");
+  const auto sheared = [](const std::string &by)
+  {
+    std::string sides;
+    for (int i = 0; i < 6; ++i)
+      sides += std::to_string(i) + ": " + by + "*y, 0, 0; ";
+    return run(
+        scene("equilibrium",
+              box("cube", "2, 3, 2 : 0, 0, 0 : 1, 2, 3",
+                  "Dimension = 3; Degree = 2; Displacement = " + sides.substr(0, sides.size() - 2)),
+              "Time: Step = 0.1; End = 0.1\n"));
+  };
+  EXPECT_FALSE(has(sheared("0.099").log, "strained"));
+  warns(sheared("0.102"), "0.051");
+}
+
+// Claim: strains at corners of a rigid punch, where they have no bound, are no large strains of the
+// block. Expected: more than 5 % at a corner, in the field, and silence.
+TEST(SolidLimits, strains_at_corners_are_not_named)
+{
+  const Ran found = run(scene("equilibrium",
+                              box("block", "40, 20 : 0, 0 : 2, 1",
+                                  "Fixed boundaries = 2; Displacement = 1: , ; 3: , "
+                                  "-0.01*(x<0.5001)"),
+                              at_rest));
+  EXPECT_EQ(found.error, "");
+  EXPECT_FALSE(has(found.log, "strained")) << found.log;
+}
+
+namespace
+{
+  struct Bent
+  {
+    double tip = 0., locked = 0.; ///< deflection [m]; share that a warning names, 0: none
+    std::string log;
+  };
+
+  /// A cantilever of 10 m x 1 m, or x 1 m x 1 m, under a load at its end.
+  Bent bend(const std::string &cells, const std::string &nu, const std::string &degree)
+  {
+    const bool in_space = std::count(cells.begin(), cells.end(), ',') == 2;
+    Bent result;
+    verification::Session session(
+        scene("equilibrium",
+              box("beam", cells + (in_space ? " : 0, 0, 0 : 10, 1, 1" : " : 0, 0 : 10, 1"),
+                  "Fixed boundaries = 0; Poisson's ratio = " + nu + "; Degree = " + degree +
+                      (in_space ? "; Dimension = 3; Traction = 1: 0, -1000, 0"
+                                : "; Traction = 1: 0, -1000")),
+              "Time: Step = 1e9; End = 1e9\nTime: Scheme = backward Euler\n"));
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          taut::Attachment point{taut::Attachment::Kind::body, 0};
+          point.place = {10., .5, in_space ? .5 : 0.};
+          std::vector<taut::Term> terms;
+          view.structure.motion(point, false, {0., -1.}, 1., terms);
+          result.tip = verification::displacement(view, terms);
+        });
+    result.log = session.log();
+    const nlohmann::json said =
+        nlohmann::json::parse(verification::file_text(session.folder() + "/statistics.json"));
+    for (const auto &warning : said.at("warnings"))
+      if (warning.at("kind") == "locking")
+        result.locked = warning.at("value");
+    return result;
+  }
+} // namespace
+
+// Claim: bilinear and trilinear elements that lock are named with how much too stiff they are, and
+// those that do not are not. Expected: the deflection with elements of degree 2, over that with
+// degree 1; four square elements through the thickness and nu = 0.3 are enough.
+TEST(SolidLimits, elements_that_lock_are_named)
+{
+  struct Case
+  {
+    const char *cells, *nu;
+    bool locks;
+  };
+  for (const Case &c : {Case{"20, 2", "0.499", true},
+                        {"20, 2", "0.3", true},
+                        {"30, 3", "0.3", true},
+                        {"40, 4", "0.3", false},
+                        {"40, 4", "0.46", true},
+                        {"10, 4", "0.3", true},
+                        {"20, 2, 2", "0.3", true},
+                        {"10, 1, 1", "0", true},
+                        {"80, 8", "0.3", false}})
+  {
+    const Bent linear = bend(c.cells, c.nu, "1"), quadratic = bend(c.cells, c.nu, "2");
+    const std::string name = std::string(c.cells) + ", nu = " + c.nu;
+    EXPECT_EQ(linear.locked > 0., c.locks) << name << linear.log;
+    EXPECT_EQ(quadratic.locked, 0.) << name;
+    if (!c.locks)
+      continue;
+    // Where it is several times too stiff, the estimate is a lower bound.
+    const double too_stiff = quadratic.tip / linear.tip - 1.;
+    EXPECT_LT(linear.locked, 1.2 * too_stiff) << name;
+    EXPECT_GT(linear.locked, .8 * std::fmin(too_stiff, 1.)) << name;
+    EXPECT_TRUE(has(linear.log, "Take Degree = 2")) << linear.log;
+    verification::figure("too stiff, " + name + ", warned of, over that against degree 2",
+                         linear.locked / too_stiff);
+  }
+}
+
+// Claim: what is pressed evenly does not lock, at any ratio. Expected: silence.
+TEST(SolidLimits, a_block_that_is_pressed_evenly_does_not_lock)
+{
+  const Ran found = run(scene("equilibrium",
+                              box("block", "3, 2 : 0, 0 : 1, 1",
+                                  "Symmetry boundaries = 0, 2; Pressure = 3: 1e6; "
+                                  "Poisson's ratio = 0.4999"),
+                              at_rest));
+  EXPECT_EQ(found.error, "");
+  EXPECT_FALSE(has(found.log, "Warning")) << found.log;
+}

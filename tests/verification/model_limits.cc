@@ -173,3 +173,26 @@ Time: Scheme = backward Euler; Step = 1000; End = 2000
     EXPECT_TRUE(has(said["message"].get<std::string>(), part)) << said;
   EXPECT_TRUE(has(said["message"].get<std::string>(), "Geometry = nonlinear"));
 }
+
+// Claim: a rigid body whose equilibrium is tilted far from its place is named: three stops beside
+// its centre. One that stands on stops around its centre is not, and neither is one that only turns
+// about the vertical. Expected: the rotation in rigid_bodies.csv.
+TEST(ModelLimits, a_body_that_falls_off_its_stops)
+{
+  const auto box = [](const std::string &places)
+  {
+    return R"(Generator = network; Gravity = 0, -9.81
+Body box: Type = rigid body; Mass = 10; Moments of inertia = 0.5, 0.6, 0.4
+Link legs: Type = stop; From = ground; To = box @ )" +
+           places + R"(; Direction = 0, 1; Stiffness = 1e6
+Time: Step = 1e-3; End = 1e-3
+Output: Observers = rigid bodies
+)";
+  };
+  const Said beside = run(box("0.1, -0.2, 0; 0.3, -0.2, -0.2; 0.3, -0.2, 0.2"), {}),
+             around = run(box("-0.3, -0.2, 0; 0.3, -0.2, -0.2; 0.3, -0.2, 0.2"), {});
+  const nlohmann::json said = find(beside, "equilibrium");
+  ASSERT_FALSE(said.is_null()) << beside.log;
+  EXPECT_GT(said["value"].get<double>(), 1.);
+  EXPECT_TRUE(find(around, "equilibrium").is_null());
+}

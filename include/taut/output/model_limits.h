@@ -24,6 +24,8 @@ namespace taut
    *   linearisation, for a linear one since its shape at rest.
    * - Two wires above each other at the start, without a link that pushes them apart, must not come
    *   closer by more than their distance.
+   * - A rigid body that tilts by more than 1 rad from its given place to the equilibrium may have
+   *   fallen off its supports.
    * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
    * - A peak that is sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for
    *   n = 10.
@@ -79,6 +81,7 @@ namespace taut
     double slope_after(const Line &line, const double *u, std::size_t sample) const;
     bool may_exceed(const Line &line, const double *u) const;
     void add_distances(const Scene &scene, const SceneBodies &structure);
+    void record_turned_bodies(const StepView &step);
     void compare_speeds(const Scene &scene);
     void compare_filter(const Scene &scene, double frequency, double step);
 
@@ -86,7 +89,8 @@ namespace taut
     LinearForms forms;
     std::vector<Line> lines;
     std::vector<double> at_reference, values;
-    Extreme slope, distance;
+    Extreme slope, distance, turned;
+    std::string turned_body;
     std::vector<Warning> constant; ///< known before the first step
     SolidLimits solids;
   };

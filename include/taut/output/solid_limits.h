@@ -4,8 +4,10 @@
 
 #include <taut/base/warning.h>
 #include <taut/model/surface_constraints.h>
+#include <taut/output/facet_limits.h>
 #include <taut/output/linear_forms.h>
 #include <taut/output/observer.h>
+#include <taut/substructure/strained_body.h>
 
 #include <array>
 #include <iosfwd>
@@ -20,11 +22,16 @@ namespace taut
    *
    * - "turn": a line between two nodes of the surface of a body turns by less than 0.1 rad. Such a
    *   turn stretches stiff parts by 0.5 %.
+   * - "strain": less than half of the elastic energy of a body is where strains exceed 5 %. Peaks
+   *   at corners and below contacts do not count.
+   * - "locking": bilinear and trilinear elements are too stiff by less than 5 %. Four square
+   *   elements through the thickness of a beam in plane strain with nu = 0.3 are so by 4 %, three
+   *   by 7 %.
    * - "sliding": at a closed contact the sides slide by less than half of the shorter element of
    *   both sides. A plane as the obstacle has no such limit.
    * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
    * - "nodes on faces": loaded nodes of the slave are at nodes of the master.
-   * - "facets": loaded sides of degree 2 have no kinks of a few degrees.
+   * - "facets": straight faces on curves are small beside the contact, see FacetLimits.
    * - "between nodes": the other side does not enter a face between its nodes.
    * - "search": nodes outside an automatic search distance stay open.
    */
@@ -50,15 +57,23 @@ namespace taut
     {
       for (Worst &w : worst)
         archive &w.excess &w.value &w.limit &w.time &w.item &w.place;
+      for (Turning &b : bodies)
+        archive &b.seen_stretch &b.seen_turn &b.most.energy &b.most.large &b.most.locked &b.most
+            .strain &b.most.place.x &b.most.place.y &b.most.place.z &b.time;
       for (Sliding &c : contacts)
+      {
+        c.facets.store(archive);
         archive &c.carries &c.entered.excess &c.entered.value &c.entered.limit &c.entered.time &c
             .entered.place;
+      }
     }
 
   private:
     enum Kind
     {
       turn,
+      strain,
+      locking,
       sliding,
       overhang,
       nodes_on_faces,
@@ -81,8 +96,13 @@ namespace taut
     {
       std::string name, origin;
       double largest; ///< [rad]
-      std::size_t first;
+      std::size_t body, first;
       std::vector<Coordinates> places, chords; ///< [m]
+
+      /// Largest stretch and turn of a line so far, and as the straining was last looked at.
+      double stretch = 0., turn = 0., seen_stretch = 0., seen_turn = 0.;
+      Straining most = {}; ///< that of most energy so far
+      double time = 0.;    ///< of it [s]
     };
 
     /// A contact: three forms for each constraint if it can slide, then one for each left-out node
@@ -95,8 +115,8 @@ namespace taut
       std::size_t contact, first, first_left_out;
       ContactGeometry geometry;
       std::vector<double> elements; ///< of each constraint [m]
-      std::vector<double> kinks;    ///< of each constraint [rad]
       std::vector<char> between;    ///< of each constraint: on a face of the master, not at a node
+      FacetLimits facets;
       std::vector<SurfaceConstraint> left_out;
       std::vector<InnerPoint> inner;
       bool carries = false;  ///< at any time
@@ -108,11 +128,13 @@ namespace taut
     void add_contact(const Scene &scene, const SceneBodies &structure, std::size_t contact);
     void describe(const Scene &scene, Sliding &contact) const;
     void record_turns(double time);
+    void record_strains(const StepView &step);
     void record_contacts(const StepView &step);
     void keep(Kind kind, double value, double limit, double time, std::size_t item,
               std::size_t place);
     Worst worst_between_nodes() const;
     std::string text_of(Kind kind, const Worst &w) const;
+    std::string text_of_body(Kind kind, const Worst &w) const;
 
     std::vector<Turning> bodies;
     std::vector<Sliding> contacts;

@@ -122,10 +122,11 @@ namespace taut
                                        double search_distance = automatic_search_distance,
                                        const WholeBoundaries &boundaries = {});
 
-  /// For each node of a surface in the plane or in space, the largest angle [rad] between normals
-  /// of adjacent faces, at any node of the faces of this node. Angles of 0.5 rad and more are
-  /// corners and do not count.
-  std::vector<double> kinks_at_nodes(const ContactSurface &surface);
+  /// For each node of a surface in the plane or in space, how far straight edges of its faces are
+  /// off the curve that they are chords of, at most [m]. Mean normals at the ends of an edge tell
+  /// the curve. Edges of degree 2 that follow the curve, and corners of 0.5 rad and more, do not
+  /// count.
+  std::vector<double> heights_of_arcs(const ContactSurface &surface);
 } // namespace taut
 
 #endif

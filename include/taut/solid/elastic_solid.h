@@ -5,10 +5,12 @@
 #include <taut/solid/solid_conditions.h>
 #include <taut/solid/solid_mesh.h>
 #include <taut/substructure/fe_body.h>
+#include <taut/substructure/strained_body.h>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -50,7 +52,7 @@ namespace taut
    * [m].
    */
   template <int dim>
-  class ElasticSolid : public FEBody<dim>
+  class ElasticSolid : public FEBody<dim>, public StrainedBody
   {
   public:
     /// A material id without cells, see Options::materials.
@@ -67,6 +69,9 @@ namespace taut
 
       /// Material of the cells with this id; throws UserError if the material is missing.
       const ElasticMaterial &material(dealii::types::material_id id) const;
+
+      /// lambda and mu of this material [Pa]; plane stress is plane strain with another lambda.
+      std::pair<double, double> lame(dealii::types::material_id id) const;
 
       PlaneState plane_state = PlaneState::strain; ///< if dim = 2
       double thickness = 1.;                       ///< if dim = 2 [m]
@@ -112,6 +117,8 @@ namespace taut
     /// stress. Stresses are from the Gauss points of least error (J. Barlow, Int. J. Numer. Meth.
     /// Engng 10 (1976)), averaged at the nodes among cells of one material.
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
+
+    Straining straining(const std::vector<double> &U) const override;
 
   private:
     struct Assembled;
