@@ -213,7 +213,7 @@ namespace taut
       bool are_points = false;
       double rounding = 0., most = 0.; ///< distances that are rounding, and that a start closes [m]
 
-      Coordinates between() const { return to - from; }
+      Coordinates between; ///< the way that the gaps of the joints do not say [m]
     };
 
     TiedPlaces tied_places(const Scene &scene, const SceneBodies &bodies, const std::size_t i)
@@ -226,7 +226,13 @@ namespace taut
         return result;
       result.from = bodies.position(scene, link.from);
       result.to = bodies.position(scene, link.to);
-      if (result.from == result.to)
+      result.between = result.to - result.from;
+      std::size_t k = i;
+      while (k > 0 && are_one_ball_joint(scene.links[k - 1], link))
+        --k;
+      for (; k < scene.links.size() && (k == i || are_one_ball_joint(scene.links[k], link)); ++k)
+        result.between = add_scaled(result.between, -scene.links[k].gap, scene.links[k].direction);
+      if (result.between == Coordinates())
         return result;
       const double from_origin = std::max(norm(result.from), norm(result.to));
       result.are_points = is_point(link.from) && is_point(link.to);
@@ -244,7 +250,7 @@ namespace taut
   Coordinates distance_of_tie(const Scene &scene, const SceneBodies &bodies, const std::size_t link)
   {
     const TiedPlaces places = tied_places(scene, bodies, link);
-    return norm(places.between()) <= places.rounding ? Coordinates() : places.between();
+    return norm(places.between) <= places.rounding ? Coordinates() : places.between;
   }
 
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies)
@@ -253,7 +259,7 @@ namespace taut
     {
       const Link &link = scene.links[i];
       const TiedPlaces places = tied_places(scene, bodies, i);
-      const double distance = norm(places.between());
+      const double distance = norm(places.between);
       const bool closes = scene.start == Start::equilibrium;
       if (distance <= (closes ? places.most : places.rounding))
         continue;

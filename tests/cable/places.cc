@@ -83,7 +83,7 @@ TEST(CablePlaces, a_load_knows_its_arc_length)
       const auto formula = last_with(load("a", "span @ 9, 0; 21.5, 0", factor + "*s")),
                  numbers = last_with(load("a", "span @ 9, 0", factor + "*9") +
                                      load("b", "span @ 21.5, 0", factor + "*21.5")),
-                 none = last_with(load("a", "span @ 9, 0", "0"));
+                 none = last_with(load("a", "span @ 9, 0; 21.5, 0", "0"));
       ASSERT_EQ(formula.size(), 1u);
       EXPECT_LT(largest_difference(numbers[0], formula[0]), 1e-9);
       EXPECT_GT(largest_difference(formula[0], none[0]), 1e-5) << geometry << factor;

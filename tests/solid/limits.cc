@@ -30,7 +30,7 @@ TEST(SolidLimits, balanced_block)
                               "Density = 1000; ",
                     cells = "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = ",
                     plane = "Contact c: Slave = b: 2; Obstacle = plane\n";
-  const Ran block = run("Gravity = 0, -9.81\nBody b: " + elastic +
+  const Ran block = run("Generator = network; Gravity = 0, -9.81\nBody b: " + elastic +
                         "Symmetry boundaries = 0; Traction = 3: 0, 9810\nBody b" + cells +
                         "6, 4 : 0, 0 : 1, 1\n" + plane + at_rest);
   EXPECT_EQ(block.error, "");
@@ -40,7 +40,7 @@ TEST(SolidLimits, balanced_block)
   // Two blocks, the upper one held up by its traction; the lower one stands on the floor, stretched
   // by the load at its top that carries a third of it.
   const Ran stacked =
-      run("Gravity = 0, -9.81\nBody b: " + elastic +
+      run("Generator = network; Gravity = 0, -9.81\nBody b: " + elastic +
           "Symmetry boundaries = 0; Traction = 3: 0, 3270\nBody b" + cells +
           "5, 3 : 0, 0 : 1, 1\nBody u: " + elastic +
           "Symmetry boundaries = 0; Traction = 3: 0, 4905\nBody u" + cells +
