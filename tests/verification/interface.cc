@@ -152,14 +152,16 @@ TEST(Interface, automatic_chooses_by_size_and_decay)
     return text.substr(0, text.find(','));
   };
   const InterfaceProblem small(catenary("5"), 1), large(catenary("40"), 2);
+  const InterfaceProblem larger(catenary("120"), 2);
   EXPECT_EQ(chosen(small, 1e-3), "assembled dense");
   EXPECT_EQ(chosen(small, statics), "assembled dense");
   EXPECT_EQ(chosen(large, 1e-3), "assembled sparse");
-  EXPECT_EQ(chosen(large, statics), "matrix-free");
+  EXPECT_EQ(chosen(large, statics), "assembled dense"); // below 4e6 numbers beside F
+  EXPECT_EQ(chosen(larger, statics), "matrix-free");
   // Short columns, but a rigid body mode for nearly every constraint.
   const InterfaceProblem pieces(fixed_string(), 512);
   EXPECT_EQ(chosen(pieces, 1e-2), "assembled sparse");
-  EXPECT_EQ(chosen(pieces, statics), "matrix-free");
+  EXPECT_EQ(chosen(pieces, statics), "assembled dense");
 }
 
 // Claim: a product costs one solve a body that has constraints, not one a constraint.
