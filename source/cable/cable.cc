@@ -65,10 +65,9 @@ namespace taut
     finish();
   }
 
-  /// A cable with a known shape.
-  Cable::Cable(const CableData &given, const CableShape &shape)
-      : Substructure(given.name, given.origin), data(given),
-        element(make_elements(given, given.length)), found(shape),
+  /// A cable with known elements and shape.
+  Cable::Cable(const CableData &given, const CableElements &elements, const CableShape &shape)
+      : Substructure(given.name, given.origin), data(given), element(elements), found(shape),
         frames(std::make_unique<EndFrames>())
   {
     hold();
@@ -82,7 +81,7 @@ namespace taut
   {
     CableData other = data;
     other.section.axial_stiffness = EA;
-    std::unique_ptr<Cable> result(new Cable(other, found));
+    std::unique_ptr<Cable> result(new Cable(other, element.with_axial_stiffness(EA), found));
     result->constant_force = constant_force;
     result->time_loads = time_loads;
     return result;

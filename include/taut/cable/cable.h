@@ -191,7 +191,7 @@ namespace taut
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 
   private:
-    Cable(const CableData &data, const CableShape &found);
+    Cable(const CableData &data, const CableElements &elements, const CableShape &found);
     Cable(const Cable &nonlinear, const std::vector<double> &U);
     void check() const;
     bool hangs_freely() const;
