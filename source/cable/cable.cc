@@ -349,11 +349,12 @@ namespace taut
     return std::move(spare);
   }
 
-  std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U, const double rate,
+  std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U,
+                                                  const std::vector<double> &V, const double rate,
                                                   const bool definite) const
   {
     if (is_linear())
-      return Substructure::tangent(U, rate, definite);
+      return Substructure::tangent(U, V, rate, definite);
     std::unique_ptr<SymmetricMatrix> A = zero_matrix();
     set_positions(U, work);
     element.add_tangent(work, definite, *A);

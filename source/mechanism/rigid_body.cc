@@ -56,7 +56,7 @@ namespace taut
         M->add(first_dof(i) + c, first_dof(i) + c,
                std::max(least_inertia * sum, sum - data.moments[i]) / (length * length));
     const std::vector<double> undeformed(n, 0.);
-    K = tangent(undeformed, 1., false);
+    K = tangent(undeformed, {}, 1., false);
     constant_force.assign(n, 0.);
     for (unsigned int c = 0; c < 3; ++c)
       constant_force[c] = data.mass * data.gravity[c];
@@ -297,6 +297,7 @@ namespace taut
   }
 
   std::unique_ptr<SymmetricMatrix> RigidBody::tangent(const std::vector<double> &U,
+                                                      const std::vector<double> &,
                                                       const double rate, const bool definite) const
   {
     const bool at_rest = rate == 0.;

@@ -84,9 +84,16 @@ namespace taut
         if (works)
           check_energy();
         const auto force = [&](const Vector &x, const Vector &v) { return internal_force(x, v); };
-        compare_columns("tangent()", *tangent(body.tangent(U, rate, false), "tangent()"),
+        compare_columns("tangent()",
+                        *tangent(body.tangent(U, some_velocity(), rate, false), "tangent()"),
                         "internal_force()", 1.,
-                        [&](const Vector &x, const Vector &v) { return force(x, v); });
+                        [&](const Vector &x, Vector v)
+                        {
+                          const Vector V = some_velocity();
+                          for (std::size_t i = 0; i < v.size(); ++i)
+                            v[i] += V[i];
+                          return force(x, v);
+                        });
         check_mean_force();
         compare_columns("mean_tangent()",
                         *tangent(body.mean_tangent(U, U, 0., false), "mean_tangent()"),
@@ -102,6 +109,15 @@ namespace taut
 
       /// Steps so long that the damping of the material has no force [s].
       static constexpr double long_step = 1e30;
+
+      /// Unlike at each DoF, of up to `length` a second.
+      Vector some_velocity() const
+      {
+        Vector V(U.size());
+        for (std::size_t i = 0; i < V.size(); ++i)
+          V[i] = length * std::cos(1.3 * (i + 1.));
+        return V;
+      }
 
       Vector moved(const std::size_t i, const double by) const
       {

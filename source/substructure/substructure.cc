@@ -116,7 +116,8 @@ namespace taut
     K->vmult_add(.5, U1.data(), f.data());
   }
 
-  std::unique_ptr<SymmetricMatrix> Substructure::tangent(const std::vector<double> &, double,
+  std::unique_ptr<SymmetricMatrix> Substructure::tangent(const std::vector<double> &,
+                                                         const std::vector<double> &, double,
                                                          bool) const
   {
     require_linear("tangent");
@@ -128,10 +129,13 @@ namespace taut
                                                               const double rate,
                                                               const bool definite) const
   {
-    std::vector<double> U = U0;
+    std::vector<double> U = U0, V = U0;
     for (std::size_t i = 0; i < U.size(); ++i)
+    {
       U[i] = .5 * (U0[i] + U1[i]);
-    return tangent(U, rate, definite);
+      V[i] = .5 * rate * (U1[i] - U0[i]);
+    }
+    return tangent(U, V, rate, definite);
   }
 
   void Substructure::external_force(const double t, std::vector<double> &P) const

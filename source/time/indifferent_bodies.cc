@@ -20,7 +20,7 @@ namespace taut
       const double mass = largest_on_diagonal(body.mass());
       if (dynamic_cast<const SlenderBody *>(&body) == nullptr || !(mass > 0.))
         return false;
-      const std::unique_ptr<SymmetricMatrix> K = body.tangent(U, 0., false);
+      const std::unique_ptr<SymmetricMatrix> K = body.tangent(U, {}, 0., false);
       try
       {
         make_local_solver("block tridiagonal", *K)

@@ -72,12 +72,10 @@ namespace taut
   {
     const Substructure &body = (*structure)[k];
     const Step &own = steps[k];
-    end_U = own.U0;
-    for (std::size_t i = 0; i < end_U.size(); ++i)
-      end_U[i] += own.dU[i];
+    set_end(own, own.dU, c);
     std::unique_ptr<SymmetricMatrix> K =
         c.mean_force ? body.mean_tangent(own.U0, end_U, c.velocity, attempt > 0)
-                     : body.tangent(end_U, c.velocity, attempt > 0);
+                     : body.tangent(end_U, end_V, c.velocity, attempt > 0);
     if (attempt > 1)
       K->add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(*K) /
                  largest_on_diagonal(body.mass()),
@@ -135,14 +133,24 @@ namespace taut
     return result;
   }
 
+  void NonlinearBodies::set_end(const Step &own, const std::vector<double> &dU,
+                                const StepCoefficients &coefficients) const
+  {
+    end_U.resize(dU.size());
+    end_V.resize(dU.size());
+    for (std::size_t i = 0; i < dU.size(); ++i)
+    {
+      end_U[i] = own.U0[i] + dU[i];
+      end_V[i] = own.known_V[i] + coefficients.velocity * dU[i];
+    }
+  }
+
   void NonlinearBodies::end_force(const std::size_t k, const StepCoefficients &coefficients,
                                   const Step &own, const std::vector<double> &dU,
                                   std::vector<double> &f) const
   {
     const Substructure &body = (*structure)[k];
-    end_U.resize(dU.size());
-    for (std::size_t i = 0; i < dU.size(); ++i)
-      end_U[i] = own.U0[i] + dU[i];
+    set_end(own, dU, coefficients);
     const std::vector<double> &f_ref = reference->force[k];
     if (coefficients.mean_force)
     {
@@ -151,9 +159,6 @@ namespace taut
         f[i] = 2. * (f[i] - f_ref[i]) - own.f0[i];
       return;
     }
-    end_V.resize(dU.size());
-    for (std::size_t i = 0; i < dU.size(); ++i)
-      end_V[i] = own.known_V[i] + coefficients.velocity * dU[i];
     body.internal_force(end_U, end_V, f);
     for (std::size_t i = 0; i < f.size(); ++i)
       f[i] -= f_ref[i];

@@ -93,7 +93,7 @@ namespace
                   1., .02);
     }
     // The tangent is the derivative of the force in these axes, too.
-    const auto K = cable.tangent(U, 0., false);
+    const auto K = cable.tangent(U, {}, 0., false);
     std::vector<double> direction(U.size()), f, g;
     for (std::size_t i = 0; i < U.size(); ++i)
       direction[i] = std::cos(3. * i) * 1e-6;

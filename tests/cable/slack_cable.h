@@ -52,7 +52,7 @@ namespace verification
       std::vector<double> step = unbalanced(cable, U);
       if (largest_of(step, cable.constrained_dofs()) < 1e-6)
         return U;
-      const auto K = cable.tangent(U, 0., true);
+      const auto K = cable.tangent(U, {}, 0., true);
       solver->factor({{1., K.get()}, {k < 20 ? 1. : 0., &cable.mass()}}, cable.constrained_dofs());
       solver->solve(step);
       for (std::size_t i = 0; i < U.size(); ++i)

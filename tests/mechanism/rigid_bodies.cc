@@ -136,7 +136,7 @@ TEST(RigidBodies, local_solver)
   std::vector<double> U(body.n_dofs());
   for (unsigned int i = 0; i < U.size(); ++i)
     U[i] = .1 * std::sin(1. + 3. * i);
-  const auto K = body.tangent(U, 1., false);
+  const auto K = body.tangent(U, {}, 1., false);
   for (const std::vector<unsigned int> &held :
        {std::vector<unsigned int>{}, {0, 4}, {3, 4, 5}, {0, 1, 2, 3, 4, 5, 6, 7, 8}})
   {
@@ -169,7 +169,7 @@ TEST(RigidBodies, forces_and_tangents)
   std::vector<double> U(n), f, plus, minus;
   for (unsigned int i = 0; i < n; ++i)
     U[i] = .1 * std::sin(1. + 3. * i);
-  const auto K = body.tangent(U, 1., false);
+  const auto K = body.tangent(U, {}, 1., false);
   constexpr double h = 1e-6;
   for (unsigned int j = 0; j < n; ++j)
   {

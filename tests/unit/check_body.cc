@@ -21,13 +21,13 @@ namespace
   public:
     Row(const unsigned int n, const std::string &mistake = "", const bool linear = false)
         : Substructure("row"), mistake(mistake), linear(linear), cubic(linear ? 0. : 3e3),
-          viscosity(linear ? 0. : 7.)
+          viscosity(linear ? 0. : 7.), drag(linear ? 0. : 50.)
     {
       for (auto *matrix : {&M, &C, &K})
         *matrix = std::make_unique<taut::CoordinateMatrix>(n);
       for (unsigned int i = 0; i < n; ++i)
         M->add(i, i, 1.);
-      K->add(1., *matrix(Vector(n, 0.), 1., 0.));
+      K->add(1., *matrix(Vector(n, 0.), {}, 1., 0.));
       constant_force.assign(n, 0.);
       finish();
     }
@@ -52,7 +52,7 @@ namespace
       for (std::size_t i = 1; i < U.size(); ++i)
         add(i,
             force(U[i] - U[i - 1]) * (mistake == "force" && i == 2 ? wrong : 1.) +
-                (V.empty() ? 0. : viscosity * (V[i] - V[i - 1])),
+                (V.empty() ? 0. : damping(V[i] - V[i - 1])),
             f);
     }
     void mean_internal_force(const Vector &U0, const Vector &U1, const double step,
@@ -67,20 +67,20 @@ namespace
             middle = force(.5 * (a + b));
         add(i,
             (mistake == "work" ? middle : mean) * (mistake == "mean force" ? wrong : 1.) +
-                viscosity * (b - a) / step,
+                damping((b - a) / step),
             f);
       }
     }
-    std::unique_ptr<taut::SymmetricMatrix> tangent(const Vector &U, const double rate,
-                                                   bool) const override
+    std::unique_ptr<taut::SymmetricMatrix> tangent(const Vector &U, const Vector &V,
+                                                   const double rate, bool) const override
     {
-      return matrix(U, mistake == "tangent" ? wrong : 1.,
+      return matrix(U, mistake == "velocity" ? Vector() : V, mistake == "tangent" ? wrong : 1.,
                     mistake == "damping" ? wrong * rate : rate);
     }
     std::unique_ptr<taut::SymmetricMatrix> mean_tangent(const Vector &U0, const Vector &,
                                                         const double rate, bool) const override
     {
-      return matrix(U0, mistake == "mean tangent" ? wrong : 1., rate);
+      return matrix(U0, {}, mistake == "mean tangent" ? wrong : 1., rate);
     }
 
   private:
@@ -89,20 +89,23 @@ namespace
     double energy(const double e) const { return .5 * k * e * e + .25 * cubic * e * e * e * e; }
     double force(const double e) const { return k * e + cubic * e * e * e; }
 
+    double damping(const double v) const { return viscosity * v + drag * v * v * v; }
+
     static void add(const std::size_t i, const double tension, Vector &f)
     {
       f[i] += tension;
       f[i - 1] -= tension;
     }
 
-    std::unique_ptr<taut::SymmetricMatrix> matrix(const Vector &U, const double factor,
-                                                  const double rate) const
+    std::unique_ptr<taut::SymmetricMatrix> matrix(const Vector &U, const Vector &V,
+                                                  const double factor, const double rate) const
     {
       auto A = std::make_unique<taut::CoordinateMatrix>(U.size());
       for (unsigned int i = 1; i < U.size(); ++i)
       {
-        const double e = U[i] - U[i - 1],
-                     slope = factor * (k + 3. * cubic * e * e) + rate * viscosity;
+        const double e = U[i] - U[i - 1], v = V.empty() ? 0. : V[i] - V[i - 1],
+                     slope =
+                         factor * (k + 3. * cubic * e * e) + rate * (viscosity + 3. * drag * v * v);
         A->add(i, i, slope);
         A->add(i - 1, i - 1, slope);
         A->add(i, i - 1, -slope);
@@ -112,7 +115,7 @@ namespace
 
     const std::string mistake;
     const bool linear;
-    const double cubic, viscosity; ///< [N/m^3, N s/m]
+    const double cubic, viscosity, drag; ///< [N/m^3, N s/m, N s^3/m^3]
   };
 
   Vector some_displacement(const std::size_t n, const double size)
@@ -140,6 +143,7 @@ TEST(CheckBody, finds_each_mistake)
       {"force", "internal_force() at DoF"},
       {"tangent", "tangent() at DoFs"},
       {"damping", "tangent() at DoFs"},
+      {"velocity", "tangent() at DoFs"},
       {"mean force", "mean_internal_force() from U to U"},
       {"work", "work of mean_internal_force()"},
       {"mean tangent", "mean_tangent() at DoFs"}};

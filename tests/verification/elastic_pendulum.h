@@ -27,7 +27,7 @@ namespace verification
       M = std::move(m);
       C = make();
       K = make();
-      K->add(1., *tangent(std::vector<double>(3, 0.), 0., false));
+      K->add(1., *tangent(std::vector<double>(3, 0.), {}, 0., false));
       constant_force = {0., 0., -bob * gravity};
       finish();
     }
@@ -50,7 +50,8 @@ namespace verification
       if (change_force)
         change_force(U0, U1, step, f);
     }
-    std::unique_ptr<taut::SymmetricMatrix> tangent(const std::vector<double> &U, double,
+    std::unique_ptr<taut::SymmetricMatrix> tangent(const std::vector<double> &U,
+                                                   const std::vector<double> &, double,
                                                    const bool definite) const override
     {
       const double l = stretch(U), geometric = bounded(EA * (1. - 1. / l) / length, definite);

@@ -83,7 +83,8 @@ namespace taut
     double rounding_of_force(unsigned int kind) const override;
     void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
                              double step, std::vector<double> &f) const override;
-    std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
+    std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U,
+                                             const std::vector<double> &V, double rate,
                                              bool definite) const override;
     std::unique_ptr<SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
                                                   const std::vector<double> &U1, double rate,

@@ -192,16 +192,18 @@ namespace taut
                                      double step, std::vector<double> &f) const;
 
     /**
-     * The symmetric tangent df/dU + rate df/dV at U and V = 0, with the pattern of K [N/m, N
-     * m/rad]. @p rate is dV/dU of the scheme [1/s], 0 at rest. @p definite leaves out the parts
-     * that may make the tangent indefinite, such as the geometric stiffness of compression;
-     * searches of an equilibrium use it.
+     * The symmetric tangent df/dU + rate df/dV at U and V, with the pattern of K [N/m, N m/rad]. An
+     * empty V is a body at rest, as in internal_force(). @p rate is dV/dU of the scheme [1/s], 0 at
+     * rest. @p definite leaves out the parts that may make the tangent indefinite, such as the
+     * geometric stiffness of compression; searches of an equilibrium use it.
      */
-    virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
+    virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U,
+                                                     const std::vector<double> &V, double rate,
                                                      bool definite) const;
 
     /// Twice the derivative of mean_internal_force() with respect to U1, or a symmetric matrix
-    /// close to it. The default is the tangent in the middle of the step.
+    /// close to it. The default is the tangent in the middle of the step, with the mean velocity
+    /// rate / 2 (U1 - U0).
     virtual std::unique_ptr<SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
                                                           const std::vector<double> &U1,
                                                           double rate, bool definite) const;

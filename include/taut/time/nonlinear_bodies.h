@@ -88,6 +88,8 @@ namespace taut
       bool energy_is_known = false; ///< U0 is U1
     };
     const std::vector<double> &end_of_step(std::size_t k, const State &state);
+    /// Sets end_U and end_V, those of the increments @p dU.
+    void set_end(const Step &own, const std::vector<double> &dU, const StepCoefficients &c) const;
     void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
                    const std::vector<double> &dU, std::vector<double> &f) const;
 
@@ -99,7 +101,7 @@ namespace taut
     double step = 0.;
     std::vector<double> last_dU, last_remainder, own_force;
     std::array<std::vector<double>, 3> tile;  ///< rows in set_guess()
-    mutable std::vector<double> end_U, end_V; ///< in tangent() and end_force()
+    mutable std::vector<double> end_U, end_V; ///< see set_end()
   };
 } // namespace taut
 
