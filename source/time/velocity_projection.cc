@@ -168,17 +168,16 @@ namespace taut
     find(difference);
     for (std::size_t i = 0; i < q.size(); ++i)
       difference[i] -= q[i];
-    const double s = largest_part(conditions, state, q, difference);
-    for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] += s * difference[i];
+    add_largest_parts(conditions, state, difference);
   }
 
-  /// The largest s in [0, 1] for which impulses q + s r after p give no energy. Contacts of a step
-  /// do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q. This is a convex
-  /// parabola in s, not positive at s = 0.
-  double VelocityProjection::largest_part(const ContactConditions &conditions, const State &state,
-                                          const std::vector<double> &plain,
-                                          const std::vector<double> &rebounding)
+  /// Adds to q, for each group of connected bodies, the largest part s in [0, 1] of the impulses r
+  /// = @p rebounding for which the contacts of the group give no energy. In a step they do the work
+  /// p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, where q stands for q + s r.
+  /// This is a convex parabola a s^2 + b s + c in s, not positive at s = 0.
+  void VelocityProjection::add_largest_parts(const ContactConditions &conditions,
+                                             const State &state,
+                                             const std::vector<double> &rebounding)
   {
     const auto response = [&](const std::vector<double> &impulses)
     {
@@ -188,17 +187,34 @@ namespace taut
         result[i] -= softening[i] * impulses[i];
       return result;
     };
-    const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
-    double before = 0.;
-    for (std::size_t i = 0; i < constraints.size() && !constraints.slides(i); ++i)
-      before += p[i] * conditions.gaps().increments()[i] / step;
-    const double a = .5 * dot(rebounding, of_rebounding),
-                 b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),
-                 constant = before + dot(plain, state.gap_rate) + .5 * dot(plain, of_plain);
-    if (a + b + constant <= 0. || !(a > 0.))
-      return 1.;
-    const double discriminant = b * b - 4. * a * std::min(0., constant);
-    return std::min(1., std::max(0., (-b + std::sqrt(discriminant)) / (2. * a)));
+    const std::vector<double> of_plain = response(q), of_rebounding = response(rebounding);
+    // Sliding constraints may be on other bodies than before.
+    if (!connected || !constraints.sliding_rows().empty())
+      connected = std::make_unique<ConnectedBodies>(structure, constraints);
+    const ConnectedBodies &groups = *connected;
+    struct Work
+    {
+      double a = 0., b = 0., c = 0.;
+    };
+    std::vector<Work> works(groups.n_groups());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      Work &own = works[groups.of_constraint(i)];
+      own.a += .5 * rebounding[i] * of_rebounding[i];
+      own.b += rebounding[i] * (state.gap_rate[i] + of_plain[i]);
+      own.c += q[i] * (state.gap_rate[i] + .5 * of_plain[i]);
+      if (!constraints.slides(i))
+        own.c += p[i] * conditions.gaps().increments()[i] / step;
+    }
+    const auto largest_part = [](const Work &of)
+    {
+      if (of.a + of.b + of.c <= 0. || !(of.a > 0.))
+        return 1.;
+      const double discriminant = of.b * of.b - 4. * of.a * std::min(0., of.c);
+      return std::min(1., std::max(0., (-of.b + std::sqrt(discriminant)) / (2. * of.a)));
+    };
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] += largest_part(works[groups.of_constraint(i)]) * rebounding[i];
   }
 
   /// Sets the mean velocity over the step: that of the scheme alternates.

@@ -118,3 +118,24 @@ TEST(SimultaneousImpacts, are_none_at_rest)
   const Outcome falls = run(scene, {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
   EXPECT_TRUE(has(falls.log, "'l', 'r', contacts that share")) << falls.log;
 }
+
+// A ball and a mass that its spring holds back reach their floors in one step. The spring's energy
+// limits the rebound of the mass, and nothing connects it with that of the ball.
+TEST(SimultaneousImpacts, balls_that_nothing_connects_bounce_as_alone)
+{
+  const std::string head = "Gravity = 0, -9.81; Start = given\nTime: End = 0.3; Step = 1e-3\n"
+                           "Time/Moreau-Jean: Restitution = 1\n",
+                    ball = "Mass ball: Position = 0, 0; Motions = y; Mass = 1; "
+                           "Initial velocity = 0, -1, 0\n"
+                           "Link floor: Type = stop; From = ball; Direction = 0, 1; Gap = 0.0105\n",
+                    held = "Mass held: Position = 1, 0; Motions = y; Mass = 1; "
+                           "Initial velocity = 0, -1, 0\n"
+                           "Link spring: Type = spring; From = held; Direction = 0, 1; "
+                           "Stiffness = 3e4\n"
+                           "Link rest: Type = stop; From = held; Direction = 0, 1; Gap = 0.0055\n";
+  const Outcome alone = run(head + ball), slow = run(head + held),
+                together = run(head + ball + held);
+  ASSERT_EQ(together.velocity.size(), 2u);
+  EXPECT_NEAR(together.velocity[0], alone.velocity[0], 1e-12);
+  EXPECT_NEAR(together.velocity[1], slow.velocity[0], 1e-12);
+}

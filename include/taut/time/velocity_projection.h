@@ -3,6 +3,7 @@
 #define taut_velocity_projection_h
 
 #include <taut/complementarity/solver.h>
+#include <taut/interface/connected_bodies.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/contact_conditions.h>
 #include <taut/time/mass_equations.h>
@@ -27,8 +28,8 @@ namespace taut
    * F = B^T A^-1 B and f = B^T M^-1 B. S of a law is its value at the end of the step.
    *
    * With Newton's restitution e the condition is D' + e min(0, D'_0). P then departs from the
-   * solution without restitution only so far that contacts give no energy. DoFs without mass and
-   * damping have no independent velocity and take the mean over the step.
+   * solution without restitution only so far that the contacts of connected bodies give no energy.
+   * DoFs without mass and damping have no independent velocity and take the mean over the step.
    */
   class VelocityProjection
   {
@@ -74,8 +75,8 @@ namespace taut
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
     void solve(const ContactConditions &conditions, const State &state);
-    double largest_part(const ContactConditions &conditions, const State &state,
-                        const std::vector<double> &plain, const std::vector<double> &rebounding);
+    void add_largest_parts(const ContactConditions &conditions, const State &state,
+                           const std::vector<double> &rebounding);
     Residual set_velocities(GapRates &rates, State &state);
     void move_quasi_static(State &state);
     void change_velocities(State &state);
@@ -96,6 +97,7 @@ namespace taut
     std::vector<double> rate, work_of_rows, work_vector;
     std::vector<double> largest_scale; ///< largest scale of each rate so far
     BodyVectors dV;
+    std::unique_ptr<const ConnectedBodies> connected; ///< with restitution only
   };
 } // namespace taut
 
