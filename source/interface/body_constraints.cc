@@ -3,8 +3,8 @@
 
 namespace taut
 {
-  BodyConstraints::BodyConstraints(const Structure &structure, const Constraints &constraints)
-      : constraints(constraints), entries(structure.size())
+  BodyConstraints::BodyConstraints(const Structure &structure, const Lasting<Constraints> lasting)
+      : constraints(lasting), entries(structure.size())
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
       add(i);

@@ -21,8 +21,8 @@ namespace taut
     return result;
   }
 
-  Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
-      : structure(structure), constraints(std::move(all))
+  Constraints::Constraints(const Lasting<Structure> bodies, std::vector<ConstraintData> all)
+      : structure(bodies), constraints(std::move(all))
   {
     const auto check = [&](const Rows &rows)
     {

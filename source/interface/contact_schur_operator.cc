@@ -7,8 +7,8 @@
 
 namespace taut
 {
-  ContactSchurOperator::ContactSchurOperator(const FactoredStructure &solvers,
-                                             const BodyConstraints &body_constraints,
+  ContactSchurOperator::ContactSchurOperator(const Lasting<FactoredStructure> solvers,
+                                             const Lasting<BodyConstraints> body_constraints,
                                              const std::size_t n_constraints)
       : ConstraintOperator(n_constraints), solvers(solvers), body_constraints(body_constraints),
         compliance(n_constraints, 0.), shift(n_constraints, 0.), active(n_constraints, 1)

@@ -9,10 +9,10 @@
 namespace taut
 {
   template <int dim>
-  CellDivision<dim>::CellDivision(const dealii::DoFHandler<dim> &dof_handler,
-                                  const dealii::Mapping<dim> &mapping,
+  CellDivision<dim>::CellDivision(const Lasting<dealii::DoFHandler<dim>> dof_handler,
+                                  const Lasting<dealii::Mapping<dim>> map,
                                   const dealii::AffineConstraints<double> &constraints)
-      : handler(dof_handler), mapping(mapping)
+      : handler(dof_handler), mapping(map)
   {
     body_cells.dim = dim;
     for (const auto &cell : handler.active_cell_iterators())

@@ -73,7 +73,7 @@ namespace taut
   };
 
   template <int dim>
-  FEBody<dim>::FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
+  FEBody<dim>::FEBody(const std::string &name, const Lasting<dealii::DoFHandler<dim>> dof_handler,
                       const dealii::SparseMatrix<double> &mass,
                       const dealii::SparseMatrix<double> &damping,
                       const dealii::SparseMatrix<double> &stiffness,

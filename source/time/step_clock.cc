@@ -34,11 +34,4 @@ namespace taut
     segment_start = time;
     n_in_segment = 0;
   }
-
-  void StepClock::take_back(const double time)
-  {
-    --n_all;
-    segment_start = time;
-    n_in_segment = 0;
-  }
 } // namespace taut

@@ -97,44 +97,44 @@ namespace taut
         if (level == 0)
           throw;
       }
-      take_back(stepper, 1);
+      shorten(1);
     }
   }
 
-  void StepControl::take_back(TimeStepper &stepper, const unsigned int n_levels_down)
+  void StepControl::shorten(const unsigned int n_levels_down)
   {
-    stepper.restore(before);
     level -= std::min(level, n_levels_down);
     ++repeated;
     n_calm = 0;
   }
 
-  /// Longest step that resolves a contact in the step that ends at a state [s].
-  double StepControl::longest_step(const std::size_t i, const State &state) const
+  /// Longest step that resolves a contact in the last step [s].
+  double StepControl::longest_step(const std::size_t i, const TimeStepper &stepper) const
   {
-    return longest_steps[i].between(-before.geometric_gap[i], -state.geometric_gap[i]);
+    return longest_steps[i].between(-stepper.before().geometric_gap[i],
+                                    -stepper.state().geometric_gap[i]);
   }
 
   /// Whether a contact is under way: it opens or closes, may still be a rebound, or its force
   /// changes much. Others follow their bodies.
-  bool StepControl::is_moving_contact(const std::size_t i, const State &state) const
+  bool StepControl::is_moving_contact(const std::size_t i, const TimeStepper &stepper) const
   {
     // Longest steps that a rebound takes, and the part of its force that a step may change.
     constexpr double steps_of_rebound = 40., large_change = .2;
-    const double first = before.multiplier[i], last = state.multiplier[i];
+    const double first = stepper.before().multiplier[i], last = stepper.state().multiplier[i];
     if (!(first > 0.) || !(last > 0.))
       return first > 0. || last > 0.;
-    return state.time - last_open[i] < steps_of_rebound * longest_step(i, state) ||
+    return stepper.state().time - last_open[i] < steps_of_rebound * longest_step(i, stepper) ||
            !(std::fabs(last - first) <= large_change * std::max(first, last));
   }
 
   /// A contact under way may need shorter steps than the last one.
-  bool StepControl::is_too_long_for_contacts(const State &state) const
+  bool StepControl::is_too_long_for_contacts(const TimeStepper &stepper) const
   {
     constexpr double rounding = 1e-9;
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      if (shortest * length() > longest_step(i, state) * (1. + rounding) &&
-          is_moving_contact(i, state))
+      if (shortest * length() > longest_step(i, stepper) * (1. + rounding) &&
+          is_moving_contact(i, stepper))
         return true;
     return false;
   }
@@ -147,11 +147,11 @@ namespace taut
       ++position;
       return;
     }
-    before = stepper.state();
     solve(stepper);
-    while (level > 0 && is_too_long_for_contacts(stepper.state()))
+    while (level > 0 && is_too_long_for_contacts(stepper))
     {
-      take_back(stepper, 1);
+      stepper.take_back();
+      shorten(1);
       solve(stepper);
     }
     position += length();
@@ -159,14 +159,13 @@ namespace taut
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
       is_closed =
           is_closed || (longest_steps[i].shortest() < step && stepper.state().multiplier[i] > 0. &&
-                        is_moving_contact(i, stepper.state()));
+                        is_moving_contact(i, stepper));
     while (level < n_levels && !is_closed && position % (2 * length()) == 0)
       ++level;
   }
 
   void StepControl::advance_adaptive(TimeStepper &stepper)
   {
-    before = stepper.state();
     const bool is_first = position == 0;
     while (position + length() > end)
       --level;
@@ -177,10 +176,11 @@ namespace taut
         --level;
       solve(stepper);
       error = stepper.local_error() / parameters.tolerance;
-      if (level == 0 || (!(error > 1.) && !is_too_long_for_contacts(stepper.state())))
+      if (level == 0 || (!(error > 1.) && !is_too_long_for_contacts(stepper)))
         break;
       const double too_long = std::isfinite(error) ? std::log2(std::max(error, 1.)) : 0.;
-      take_back(stepper, std::max(1u, static_cast<unsigned int>(too_long / order_of_error)));
+      stepper.take_back();
+      shorten(std::max(1u, static_cast<unsigned int>(too_long / order_of_error)));
     }
     position += length();
     n_calm = error < calm && !is_first ? n_calm + 1 : 0;
@@ -194,10 +194,20 @@ namespace taut
 
   void StepControl::advance(TimeStepper &stepper)
   {
-    if (parameters.adaptive())
-      advance_adaptive(stepper);
-    else
-      advance_fixed(stepper);
+    const unsigned int level_before = level, n_calm_before = n_calm;
+    try
+    {
+      if (parameters.adaptive())
+        advance_adaptive(stepper);
+      else
+        advance_fixed(stepper);
+    }
+    catch (...)
+    {
+      level = level_before;
+      n_calm = n_calm_before;
+      throw;
+    }
     const State &state = stepper.state();
     for (std::size_t i = 0; i < last_open.size(); ++i)
       if (!(state.multiplier[i] > 0.))

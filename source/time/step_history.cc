@@ -49,7 +49,9 @@ namespace taut
   StepHistory::StepHistory(const Structure &structure, const Reference &reference)
       : structure(structure), reference(reference), motions(structure, reference)
   {
-    for (BodyVectors *v : {&step_forces.P, &shared, &step_forces.old_A, &step_forces.old_balance})
+    StepForces &f = step_forces;
+    for (BodyVectors *v :
+         {&f.P, &shared, &f.old_U, &f.old_V_old, &f.old_A, &f.old_dU, &f.old_KU, &f.old_balance})
       *v = structure.zero();
     step_forces.external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -153,31 +155,48 @@ namespace taut
 
   void StepHistory::exchange(State &state)
   {
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      state.dU[k].swap(shared[k]);
-      state.V_old[k].swap(state.V[k]);
-      step_forces.old_A[k].swap(state.A[k]);
-      step_forces.old_balance[k].swap(state.balance[k]);
-    }
+    exchange_old(state);
+    state.V_old.swap(state.V);
+    state.dU.swap(shared);
     motions.impose_increments(state.dU);
+    is_exchanged = true;
   }
 
-  /// shared has the old increments; state.V has V_{-1} until the new velocity replaces it.
+  void StepHistory::take_back(State &state)
+  {
+    if (!is_exchanged)
+      return;
+    state.V.swap(state.V_old);
+    exchange_old(state);
+    is_exchanged = false;
+  }
+
+  void StepHistory::exchange_old(State &state)
+  {
+    StepForces &f = step_forces;
+    state.U.swap(f.old_U);
+    state.V_old.swap(f.old_V_old);
+    state.A.swap(f.old_A);
+    state.dU.swap(f.old_dU);
+    state.KU.swap(f.old_KU);
+    state.balance.swap(f.old_balance);
+  }
+
   void StepHistory::accept(const StepCoefficients &c, const std::size_t k, const std::size_t begin,
                            const std::size_t end, State &state) const
   {
     const double velocity = c.velocity, acceleration = c.acceleration;
     const double *dU = state.dU[k].data();
+    const double *U0 = step_forces.old_U[k].data();
     double *U = state.U[k].data(), *V = state.V[k].data(), *A = state.A[k].data();
     const auto visitor = [=](const std::size_t i, const double v, const double a)
     {
-      U[i] += dU[i];
+      U[i] = U0[i] + dU[i];
       V[i] = velocity * dU[i] + v;
       A[i] = acceleration * dU[i] + a;
     };
-    const std::vector<double> &old_dU = shared[k], &older_V = state.V[k];
-    const Predictor known(c, state.V_old[k], step_forces.old_A[k], old_dU, older_V);
+    const Predictor known(c, state.V_old[k], step_forces.old_A[k], step_forces.old_dU[k],
+                          step_forces.old_V_old[k]);
     vectorised([=] { known.visit(begin, end, visitor); });
     if (structure[k].has_moving_constraints() && !c.is_at_rest())
       motions.visit(k, begin, end,

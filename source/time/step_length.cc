@@ -21,18 +21,6 @@ namespace taut
     }
   }
 
-  void TimeStepper::restore(const State &before)
-  {
-    current = before;
-    nonlinear.follow(current);
-    errors.largest_motions = before_step.motion;
-    step.conditions().gaps().set_sizes(before_step.of_gaps);
-    constraints.set_courses(before_step.courses);
-    if (projection && !before_step.rates.empty())
-      projection->set_largest_rates(before_step.rates);
-    clock.take_back(current.time);
-  }
-
   void TimeStepper::check_moving_contacts()
   {
     if (coefficients.mean_force || !coefficients.rings())

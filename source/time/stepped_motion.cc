@@ -62,6 +62,8 @@ namespace taut
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, *integrator,
                                             options.step, initial.reference, initial.state,
                                             options.start == Start::equilibrium);
+    if (!options.allow_unsuitable_scheme)
+      stepper->refuse_rigid_moving_contacts();
     control = std::make_unique<StepControl>(options.steps, options.step, n_steps,
                                             !stepper->is_linear(), longest_steps);
   }
@@ -85,8 +87,6 @@ namespace taut
   {
     control->advance(*stepper);
     costs().lap(StepPart::control);
-    if (!options.allow_unsuitable_scheme)
-      stepper->check_moving_contacts();
     last = stepper->scheme();
     contact_measures.record(stepper->state(), last);
     costs().lap(StepPart::measures);

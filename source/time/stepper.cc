@@ -5,6 +5,9 @@
 #include <taut/time/named_scheme.h>
 #include <taut/time/stepper.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
+#include <array>
 #include <cmath>
 
 namespace taut
@@ -37,6 +40,27 @@ namespace taut
       return system;
     }
 
+    /// Errors name entries of parameter files: these are the same for a program.
+    constexpr std::array<std::array<const char *, 2>, 7> options_of_entries = {
+        {{"'Time/Allow unsuitable scheme'", "StepperOptions::allow_unsuitable_scheme"},
+         {"set 'Time/Mass redistribution'", "take bodies without mass where it acts"},
+         {"Time/Mass redistribution: ", ""},
+         {"Time/Scheme: ", "StepperOptions::scheme: "},
+         {"Time/Step: ", "StepperOptions::step: "},
+         {"Time/Moreau-Jean/", "StepperOptions::scheme_entries, Moreau-Jean/"},
+         {"'Contact tolerance'", "StepperOptions::solver.contact_tolerance"}}};
+
+    [[noreturn]] void throw_with_options(const UserError &error)
+    {
+      const std::string before = error.what();
+      std::string message = before;
+      for (const auto &[entry, option] : options_of_entries)
+        boost::algorithm::replace_all(message, entry, option);
+      if (message == before)
+        throw;
+      throw UserError(message);
+    }
+
     void check_form(const Displacement &form, const System &system, const Structure &structure)
     {
       system.communicator().agree(
@@ -55,20 +79,31 @@ namespace taut
     }
   } // namespace
 
-  Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(checked(system, options)), n_constraints(system.n_constraints()),
-        structure(system.structure()), constraints(system.constraints(structure)),
-        motion(structure, constraints, options)
+  Stepper::Stepper(const Lasting<System> lasting, const StepperOptions &options)
+  try : system(checked(lasting, options)), n_constraints(system.n_constraints()),
+      structure(system.structure()), constraints(system.constraints(structure)),
+      motion(structure, constraints, options)
   {
     motion.choose_scheme();
     motion.prepare();
   }
+  catch (const UserError &error)
+  {
+    throw_with_options(error);
+  }
 
   void Stepper::advance()
   {
-    do
-      motion.advance();
-    while (!motion.is_at_step());
+    try
+    {
+      do
+        motion.advance();
+      while (!motion.is_at_step());
+    }
+    catch (const UserError &error)
+    {
+      throw_with_options(error);
+    }
   }
 
   std::size_t Stepper::row(const std::size_t constraint) const

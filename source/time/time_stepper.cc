@@ -81,21 +81,52 @@ namespace taut
     coefficients = c;
   }
 
-  void TimeStepper::store_sizes()
+  void TimeStepper::keep_old()
   {
-    before_step.motion = errors.largest_motions;
-    step.conditions().gaps().copy_sizes(before_step.of_gaps);
-    constraints.copy_courses(before_step.courses);
+    old.state = current;
+    old.certificate = last;
+    old.motion = errors.largest_motions;
+    step.conditions().gaps().copy_sizes(old.of_gaps);
+    constraints.copy_courses(old.courses);
     if (projection)
-      before_step.rates = projection->largest_rates();
+      old.rates = projection->largest_rates();
     else
-      before_step.rates.clear();
+      old.rates.clear();
+    step.history().keep();
+  }
+
+  void TimeStepper::take_back()
+  {
+    step.history().take_back(current);
+    static_cast<SharedState &>(current) = old.state;
+    last = old.certificate;
+    errors.largest_motions = old.motion;
+    step.conditions().gaps().set_sizes(old.of_gaps);
+    constraints.set_courses(old.courses);
+    constraints.update(current.time);
+    nonlinear.return_to(current);
+    if (projection && !old.rates.empty())
+      projection->set_largest_rates(old.rates);
+    clock.take_back();
   }
 
   void TimeStepper::advance()
   {
+    keep_old();
+    try
+    {
+      step_on();
+    }
+    catch (...)
+    {
+      take_back();
+      throw;
+    }
+  }
+
+  void TimeStepper::step_on()
+  {
     last = {};
-    store_sizes();
     const double end = clock.advance(current.last_step);
     if (const StepCoefficients c = clock.coefficients(current.last_step); c != coefficients)
     {
@@ -104,6 +135,8 @@ namespace taut
     }
     begin_step(end);
     attempt([this] { solve(); });
+    if (refuses_rigid)
+      check_moving_contacts();
   }
 
   /// Sets the time at the end of the step, and the places of the constraints there.

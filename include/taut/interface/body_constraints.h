@@ -21,8 +21,8 @@ namespace taut
       LinearForm form;
     };
 
-    /// The arguments are kept by reference.
-    BodyConstraints(const Structure &structure, const Constraints &constraints);
+    /// @p constraints are kept by reference.
+    BodyConstraints(const Structure &structure, Lasting<Constraints> constraints);
 
     /// After Constraints::update() or turn(): updates the sliding and turning constraints.
     void update();

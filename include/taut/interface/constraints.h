@@ -2,6 +2,7 @@
 #ifndef taut_constraints_h
 #define taut_constraints_h
 
+#include <taut/base/lasting.h>
 #include <taut/complementarity/cone.h>
 #include <taut/interface/constraint_spring.h>
 #include <taut/interface/geometry.h>
@@ -71,7 +72,7 @@ namespace taut
   public:
     /// @p structure is kept by reference. Throws EntryError with the name of an invalid constraint,
     /// see check_constraint(). Called by all ranks together.
-    Constraints(const Structure &structure, std::vector<ConstraintData> constraints);
+    Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints);
 
     std::size_t size() const { return constraints.size(); }
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }

@@ -24,8 +24,8 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    ContactSchurOperator(const FactoredStructure &solvers, const BodyConstraints &body_constraints,
-                         std::size_t n_constraints);
+    ContactSchurOperator(Lasting<FactoredStructure> solvers,
+                         Lasting<BodyConstraints> body_constraints, std::size_t n_constraints);
 
     /// Sets the diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }

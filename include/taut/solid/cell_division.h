@@ -2,6 +2,7 @@
 #ifndef taut_cell_division_h
 #define taut_cell_division_h
 
+#include <taut/base/lasting.h>
 #include <taut/scene/divisible_body.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -20,7 +21,8 @@ namespace taut
   public:
     /// @p dof_handler and @p mapping are kept by reference; @p constraints are the constraints of
     /// the body.
-    CellDivision(const dealii::DoFHandler<dim> &dof_handler, const dealii::Mapping<dim> &mapping,
+    CellDivision(Lasting<dealii::DoFHandler<dim>> dof_handler,
+                 Lasting<dealii::Mapping<dim>> mapping,
                  const dealii::AffineConstraints<double> &constraints);
 
     const BodyCells &cells() const { return body_cells; }

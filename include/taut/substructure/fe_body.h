@@ -2,6 +2,7 @@
 #ifndef taut_fe_body_h
 #define taut_fe_body_h
 
+#include <taut/base/lasting.h>
 #include <taut/substructure/substructure.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -76,7 +77,7 @@ namespace taut
      * no damping. Throws UserError for matrices or a load of another size, for a matrix that is not
      * symmetric, and for a constraint that both depends on DoFs and is inhomogeneous.
      */
-    FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
+    FEBody(const std::string &name, Lasting<dealii::DoFHandler<dim>> dof_handler,
            const dealii::SparseMatrix<double> &mass, const dealii::SparseMatrix<double> &damping,
            const dealii::SparseMatrix<double> &stiffness,
            const dealii::AffineConstraints<double> &constraints,

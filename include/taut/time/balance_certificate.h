@@ -14,13 +14,14 @@
 
 namespace taut
 {
-  /// External forces on the bodies of this rank, and the state of the step before.
+  /// External forces on the bodies of this rank, and their state before the step.
   struct StepForces
   {
     BodyVectors P;                      ///< external force minus that of the reference [N, N m]
     std::vector<PerKind> external_size; ///< largest entries of P of each body
-    BodyVectors old_A;                  ///< accelerations of the step before [m/s^2, rad/s^2]
-    BodyVectors old_balance;            ///< balance r of the step before [N, N m]
+
+    BodyVectors old_U, old_V_old, old_A; ///< as in State
+    BodyVectors old_dU, old_KU, old_balance;
   };
 
   /**

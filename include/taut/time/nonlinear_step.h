@@ -30,6 +30,13 @@ namespace taut
     /// Takes the directions of the constraints from a state.
     void follow(const State &state);
 
+    /// The same after a step was taken back: tangents of its end are not kept.
+    void return_to(const State &state)
+    {
+      tangents_are_kept = false;
+      follow(state);
+    }
+
     /// Finds the increments of a step from @p state, with the tangent of a step before while that
     /// pays; the state gets the multipliers. Throws UserError if the iterations do not converge.
     void find_increments(Step &step, State &state, Certificate &certificate);

@@ -22,20 +22,11 @@ namespace taut
     std::vector<double> gap;
   };
 
-  /// Motion of the bodies and of the links' springs at one time.
-  struct State
+  /// The part of a State that is equal on all ranks.
+  struct SharedState
   {
     double time = 0.;      ///< [s]
     double last_step = 0.; ///< length of the step that ended here; 0: none [s]
-
-    BodyVectors U;     ///< displacement from the reference [m, rad]
-    BodyVectors V;     ///< velocity [m/s, rad/s]
-    BodyVectors A;     ///< acceleration [m/s^2, rad/s^2]
-    BodyVectors dU;    ///< increment of the last step [m, rad]
-    BodyVectors V_old; ///< velocity before the last step [m/s, rad/s]
-    BodyVectors KU;    ///< K U [N, N m]
-    /// P + B N - C V - K (U_ref + U), without mean forces [N, N m].
-    BodyVectors balance;
 
     std::vector<double> multiplier;    ///< N, or its mean over the step [N, N m]
     std::vector<double> gap;           ///< D of the complementarity conditions [m, rad]
@@ -70,7 +61,6 @@ namespace taut
     };
     std::vector<LinkSpring> link_springs;
 
-    /// All but the vectors of the bodies; equal on all ranks.
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
@@ -78,6 +68,19 @@ namespace taut
       archive &kinetic_energies &energy_gains;
       archive &is_mean &constraint_work &impulse_work &link_springs;
     }
+  };
+
+  /// Motion of the bodies and of the links' springs at one time.
+  struct State : SharedState
+  {
+    BodyVectors U;     ///< displacement from the reference [m, rad]
+    BodyVectors V;     ///< velocity [m/s, rad/s]
+    BodyVectors A;     ///< acceleration [m/s^2, rad/s^2]
+    BodyVectors dU;    ///< increment of the last step [m, rad]
+    BodyVectors V_old; ///< velocity before the last step [m/s, rad/s]
+    BodyVectors KU;    ///< K U [N, N m]
+    /// P + B N - C V - K (U_ref + U), without mean forces [N, N m].
+    BodyVectors balance;
 
     /// The vectors of the bodies of this rank.
     std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }

@@ -36,8 +36,12 @@ namespace taut
     /// Changes the length of the steps from @p time on [s].
     void set_step(double length, double time);
 
-    /// Takes back the last step, which began at @p time [s].
-    void take_back(double time);
+    /// Takes back the last step.
+    void take_back()
+    {
+      --n_all;
+      --n_in_segment;
+    }
 
     long n_steps() const { return n_all; }
 

@@ -64,7 +64,7 @@ namespace taut
     /// True at multiples of the given step.
     bool is_at_step() const { return position % (1L << n_levels) == 0; }
 
-    /// Advances by one accepted step.
+    /// Advances by one accepted step. After any exception it and the motion are as before.
     void advance(TimeStepper &stepper);
 
     long n_repeated() const { return repeated; }
@@ -80,10 +80,10 @@ namespace taut
     long length() const { return 1L << level; }
 
     void solve(TimeStepper &stepper);
-    double longest_step(std::size_t i, const State &state) const;
-    bool is_moving_contact(std::size_t i, const State &state) const;
-    bool is_too_long_for_contacts(const State &state) const;
-    void take_back(TimeStepper &stepper, unsigned int n_levels_down);
+    double longest_step(std::size_t i, const TimeStepper &stepper) const;
+    bool is_moving_contact(std::size_t i, const TimeStepper &stepper) const;
+    bool is_too_long_for_contacts(const TimeStepper &stepper) const;
+    void shorten(unsigned int n_levels_down);
     void advance_fixed(TimeStepper &stepper);
     void advance_adaptive(TimeStepper &stepper);
 
@@ -95,7 +95,6 @@ namespace taut
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
     std::vector<double> last_open; ///< time when each constraint was open [s]
-    State before;                  ///< state before the step
   };
 } // namespace taut
 

@@ -38,8 +38,14 @@ namespace taut
     const PrescribedMotions &prescribed() const { return motions; }
     PrescribedMotions &prescribed() { return motions; }
 
-    /// Exchanges the increments with the vectors of the state at the start of the step.
+    /// Puts the vectors of the state at the start of the step aside, and the increments in.
     void exchange(State &state);
+
+    /// Begins a step.
+    void keep() { is_exchanged = false; }
+
+    /// Puts back what exchange() put aside since keep(), if anything.
+    void take_back(State &state);
 
     /// After exchange(): sets displacement, velocity, acceleration of body k in rows begin to
     /// end - 1.
@@ -55,6 +61,7 @@ namespace taut
     const StepForces &forces() const { return step_forces; }
 
   private:
+    void exchange_old(State &state);
     void set_external_force(std::size_t k, double time);
     void set_load(std::size_t k, const StepCoefficients &c, const State &state);
 
@@ -63,6 +70,7 @@ namespace taut
     StepForces step_forces;
     PrescribedMotions motions;
     BodyVectors shared;
+    bool is_exchanged = false;
     std::vector<double> known_v, mean_a; ///< as long as the longest body
     std::vector<double> damping_of_tile, inertia_of_tile;
   };

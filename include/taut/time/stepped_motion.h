@@ -61,7 +61,7 @@ namespace taut
     void prepare(long n_steps = std::numeric_limits<long>::max());
 
     /// Advances by one accepted step. Throws UserError with time and constraint if its certificate
-    /// exceeds the contact tolerance.
+    /// exceeds the contact tolerance. After any exception the motion is that before the step.
     void advance();
 
     /// True also for an unprepared motion, which stays at its start.

@@ -2,6 +2,7 @@
 #ifndef taut_stepper_h
 #define taut_stepper_h
 
+#include <taut/base/lasting.h>
 #include <taut/interface/system.h>
 #include <taut/time/stepped_motion.h>
 
@@ -25,10 +26,11 @@ namespace taut
     /// @p system is kept by reference. Finds the start, linearises bodies on request there (see
     /// SlenderBody::linearised()) and chooses the scheme. Throws UserError for impossible options,
     /// without an equilibrium, or if a scheme is known to fail on a constraint.
-    explicit Stepper(const System &system, const StepperOptions &options = StepperOptions());
+    explicit Stepper(Lasting<System> system, const StepperOptions &options = StepperOptions());
 
     /// Advances by one step. Throws UserError with time and constraint if its certificate exceeds
-    /// the contact tolerance.
+    /// the contact tolerance, and what bodies, loads and geometries throw. After any exception the
+    /// motion is that before the step, or where a step is divided, before its last part.
     void advance();
 
     double time() const { return motion.state().time; }

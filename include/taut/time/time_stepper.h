@@ -42,8 +42,18 @@ namespace taut
                 Reference reference, State start, bool at_rest);
 
     /// Advances by one step. Throws UserError with time and constraint if the certificate exceeds
-    /// the contact tolerance.
+    /// the contact tolerance. After any exception the motion is that before the step.
     void advance();
+
+    /// Takes the last step back, as if nothing had happened since.
+    void take_back();
+
+    /// The state before the last step, without the vectors of the bodies.
+    const SharedState &before() const { return old.state; }
+
+    /// From now on a step throws an EntryError if a moving elastic constraint acts as rigid in its
+    /// place and the forces of the scheme then ring, see ContactResolution.
+    void refuse_rigid_moving_contacts() { refuses_rigid = true; }
 
     /// Length of the steps to come [s].
     void set_step(const double length) { clock.set_step(length, current.time); }
@@ -55,9 +65,6 @@ namespace taut
 
     /// @p state has the vectors of the bodies.
     void load(InputArchive &archive, State state);
-
-    /// Returns to an earlier state, as if nothing had happened since.
-    void restore(const State &before);
 
     /// Local error of the last step, see LocalError. Called by all ranks together.
     double local_error()
@@ -72,11 +79,6 @@ namespace taut
     {
       return loads.is_resolved(current.time, length, reference_step, tolerance);
     }
-
-    /// Throws an EntryError if a moving elastic constraint acts as rigid in its present place and
-    /// the forces of the scheme then ring, see ContactResolution. Called by all ranks together
-    /// after a step.
-    void check_moving_contacts();
 
     const State &state() const { return current; }
     const Reference &reference() const { return reference_state; }
@@ -110,7 +112,8 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void reset_caches(const std::vector<double> &largest_rates);
-    void store_sizes();
+    void keep_old();
+    void step_on();
     void begin_step(double end);
     void attempt(const std::function<void()> &work);
     void solve();
@@ -119,6 +122,7 @@ namespace taut
     void measure_energy();
     void start_balance();
     void hold_quasi_static_dofs();
+    void check_moving_contacts();
 
     const Structure &structure;
     Constraints &constraints;
@@ -129,15 +133,19 @@ namespace taut
     StepClock clock;
     StepCoefficients coefficients; ///< of the last step
 
-    /// Data of restore() beside the state.
-    struct Sizes
+    bool refuses_rigid = false;
+
+    /// What take_back() needs beside the vectors of the bodies, which the history has.
+    struct Old
     {
+      SharedState state;
+      Certificate certificate;
       PerKind motion;
       GapTracker::Sizes of_gaps;
       std::vector<std::vector<double>> courses;
       std::vector<double> rates;
     };
-    Sizes before_step;
+    Old old;
 
     NonlinearStep nonlinear;
     Step step;
