@@ -113,7 +113,7 @@ namespace taut
     return highest;
   }
 
-  void ContactMeasures::record(const State &state, const StepCoefficients &c)
+  void ContactMeasures::record(const State &state, const StepCoefficients &c, const BodyVectors &P)
   {
     ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -127,7 +127,7 @@ namespace taut
     energies.record(state, c);
     add_gains(state, c);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
-      energies.measure_scale(state);
+      energies.measure_scale(state, P);
   }
 
   /// Without a unilateral constraint, no contact can have caused a gain.

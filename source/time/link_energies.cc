@@ -34,7 +34,7 @@ namespace taut
       rows[i].begin = start.time;
     }
     measure_rest(start);
-    measure_scale(start);
+    measure_scale(start, {});
   }
 
   void LinkEnergies::measure_rest(const State &start)
@@ -144,20 +144,20 @@ namespace taut
   }
 
   /// Energy that the loads give a free body in one step: at rest, motions are rounding of it [J].
-  double LinkEnergies::energy_of_loads(const std::size_t k, const State &state)
+  double LinkEnergies::energy_of_loads(const std::size_t k, const std::vector<double> &P,
+                                       const double step) const
   {
     if (!(masses[k] > 0.))
       return 0.;
-    structure[k].external_force(state.time, work);
     double force = 0.;
-    for (unsigned int i = 0; i < work.size(); ++i)
+    for (unsigned int i = 0; i < P.size(); ++i)
       if (structure[k].kind(i) == 0)
-        force += std::fabs(work[i]);
-    const double speed = state.last_step * force / masses[k];
+        force += std::fabs(P[i] + reference.force[k][i]);
+    const double speed = step * force / masses[k];
     return .5 * masses[k] * speed * speed;
   }
 
-  void LinkEnergies::measure_scale(const State &state)
+  void LinkEnergies::measure_scale(const State &state, const BodyVectors &P)
   {
     const std::size_t n = energies.size();
     sums.assign(3 * n, 0.);
@@ -169,7 +169,8 @@ namespace taut
       body.mass().vmult_add(.5, state.V[k].data(), work.data());
       sums[connected.of_body(k)] += dot_in_lanes(work, state.V[k]);
       sums[n + connected.of_body(k)] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
-      sums[2 * n + connected.of_body(k)] += energy_of_loads(k, state);
+      if (!P.empty())
+        sums[2 * n + connected.of_body(k)] += energy_of_loads(k, P[k], state.last_step);
     }
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -88,7 +88,7 @@ namespace taut
     control->advance(*stepper);
     costs().lap(StepPart::control);
     last = stepper->scheme();
-    contact_measures.record(stepper->state(), last);
+    contact_measures.record(stepper->state(), last, stepper->external_forces());
     costs().lap(StepPart::measures);
   }
 

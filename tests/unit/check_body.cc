@@ -143,7 +143,7 @@ TEST(CheckBody, finds_each_mistake)
       {"force", "internal_force() at DoF"},
       {"tangent", "tangent() at DoFs"},
       {"damping", "tangent() at DoFs"},
-      {"velocity", "tangent() at DoFs"},
+      {"velocity", "tangent(), part with the rate, at DoFs"},
       {"mean force", "mean_internal_force() from U to U"},
       {"work", "work of mean_internal_force()"},
       {"mean tangent", "mean_tangent() at DoFs"}};

@@ -6,6 +6,12 @@
 // floor.
 #include "scene_tests.h"
 
+#include <taut/base/registry.h>
+#include <taut/time/integrator.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
 using namespace verification;
 
 namespace
@@ -65,7 +71,36 @@ Time: Step = 1e-3; End = 0.7
         });
     return std::sqrt(error / size);
   }
+
+  /// A scheme of an author, whose entry is not in a subsection of its own.
+  class HHTOfAnAuthor : public taut::TimeIntegrator
+  {
+  public:
+    void declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.add_parameter("Alpha", alpha, "", dealii::Patterns::Double(0., .3));
+    }
+    taut::StepCoefficients coefficients(const double step) const override
+    {
+      return taut::hht(step, alpha);
+    }
+    std::string description() const override { return "author's HHT " + number(alpha); }
+
+  private:
+    double alpha = .1;
+  };
+  const taut::Register<taut::TimeIntegrator, HHTOfAnAuthor> author("author's HHT", "of a test");
 } // namespace
+
+TEST(Schemes, entries_of_a_registered_scheme_are_read)
+{
+  const std::string scene = scene_file("inclined_cable");
+  const Overrides scheme = {"Time.Scheme=author's HHT", "Time.End=0.01"};
+  EXPECT_TRUE(has(log_of(scene, scheme), "author's HHT 0.1"));
+  EXPECT_TRUE(has(log_of(scene, scheme + Overrides{"Time.Alpha=0.05"}), "author's HHT 0.05"));
+  for (const char *wrong : {"Time.Alpha=0.5", "Time.Alfa=0.05"})
+    EXPECT_TRUE(has(error_of([&] { log_of(scene, scheme + Overrides{wrong}); }), "Alpha")) << wrong;
+}
 
 TEST(Schemes, automatic_follows_from_links_bodies_and_step)
 {

@@ -16,8 +16,8 @@ namespace taut
    * consistent at U.
    *
    * - internal_force() with the change of strain_energy(),
-   * - tangent() with the change of internal_force(), at a rate of 1/s and some velocity of
-   *   up to @p length a second,
+   * - tangent() at rest, and its part with the rate at a velocity of up to @p length a second, with
+   *   the change of internal_force(),
    * - mean_internal_force() times U1 - U with the change of strain_energy() from U to U1,
    * - mean_internal_force() from U to U with internal_force(),
    * - mean_tangent() from U to U with twice the change of mean_internal_force(),

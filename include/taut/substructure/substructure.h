@@ -193,9 +193,10 @@ namespace taut
 
     /**
      * The symmetric tangent df/dU + rate df/dV at U and V, with the pattern of K [N/m, N m/rad]. An
-     * empty V is a body at rest, as in internal_force(). @p rate is dV/dU of the scheme [1/s], 0 at
-     * rest. @p definite leaves out the parts that may make the tangent indefinite, such as the
-     * geometric stiffness of compression; searches of an equilibrium use it.
+     * empty V is a body at rest, as in internal_force(). df/dU may be that at rest: damping may
+     * make it unsymmetric. @p rate is dV/dU of the scheme [1/s], 0 at rest. @p definite leaves out
+     * the parts that may make the tangent indefinite, such as the geometric stiffness of
+     * compression; searches of an equilibrium use it.
      */
     virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U,
                                                      const std::vector<double> &V, double rate,

@@ -51,8 +51,9 @@ namespace taut
       is_adaptive = adaptive;
     }
 
-    /// Records an accepted step with its coefficients. Called by all ranks together.
-    void record(const State &state, const StepCoefficients &c);
+    /// Records an accepted step with its coefficients, and the external forces @p P at its end
+    /// minus those of the reference. Called by all ranks together.
+    void record(const State &state, const StepCoefficients &c, const BodyVectors &P);
 
     /// Measures so far, for checkpoints.
     void save(OutputArchive &archive);

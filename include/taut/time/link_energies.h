@@ -35,8 +35,9 @@ namespace taut
     /// Records an accepted step with its coefficients.
     void record(const State &state, const StepCoefficients &c);
 
-    /// Measures the energies of the scale. Called by all ranks together.
-    void measure_scale(const State &state);
+    /// Measures the energies of the scale. @p P are the external forces of the state minus those of
+    /// the reference; empty: no step led here. Called by all ranks together.
+    void measure_scale(const State &state, const BodyVectors &P);
 
     /// Energies of a constraint so far.
     struct Account
@@ -105,7 +106,7 @@ namespace taut
     double gain(std::size_t i, const State &state, const StepCoefficients &c) const;
     static void add_contact(Account &account, const Row &row, double end);
     void measure_rest(const State &start);
-    double energy_of_loads(std::size_t k, const State &state);
+    double energy_of_loads(std::size_t k, const std::vector<double> &P, double step) const;
 
     const Structure &structure;
     const Constraints &constraints;

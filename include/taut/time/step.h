@@ -74,6 +74,7 @@ namespace taut
     ContactConditions &conditions() { return own_conditions; }
     const ContactConditions &conditions() const { return own_conditions; }
     StepHistory &history() { return own_history; }
+    const StepHistory &history() const { return own_history; }
     const BalanceCertificate &balance() const { return own_balance; }
     StepCheck &check() { return own_check; }
     StepCosts &costs() { return own_costs; }

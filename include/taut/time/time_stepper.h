@@ -82,6 +82,9 @@ namespace taut
 
     const State &state() const { return current; }
     const Reference &reference() const { return reference_state; }
+
+    /// External forces of the state minus those of the reference [N, N m].
+    const BodyVectors &external_forces() const { return step.history().forces().P; }
     const Certificate &certificate() const { return last; }
 
     /// Coefficients of the last step.

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the interface operator is F = sum_k B_k^T A_k^-1 B_k for whoever applies it, AztecOO among
+// them, and setting F up takes as many exchanges whatever its size. Source: a row of masses on
+// springs, for which A_k are numbers and F has three diagonals.
+#include "common.h"
+#include "fuzz/door_bodies.h"
+
+#include <taut/base/communicator.h>
+#include <taut/interface/contact_schur_operator.h>
+#include <taut/interface/schur_complement.h>
+#include <taut/interface/system.h>
+
+#include <AztecOO.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_Vector.h>
+
+namespace
+{
+  long n_exchanges = 0;
+
+  constexpr double mass_factor = 1e4; ///< [1/s^2]
+
+  double mass(const std::size_t i)
+  {
+    return 1. + .3 * i;
+  }
+  double stiffness(const std::size_t i)
+  {
+    return 200. + 40. * i;
+  }
+
+  /// Masses beside each other, on all ranks in turn, each with a stop to the next one.
+  struct Row
+  {
+    explicit Row(const std::size_t n_constraints)
+        : n(n_constraints), structure((build(), system.structure())),
+          constraints(system.constraints(structure)), solvers(structure, "sparse direct")
+    {
+      solvers.factor(mass_factor, 0.);
+    }
+
+    void build()
+    {
+      for (std::size_t i = 0; i <= n; ++i)
+        system.add("mass " + std::to_string(i), i % processes.size(),
+                   [i] { return door::chain_of("mass", {mass(i)}, {stiffness(i)}); });
+      for (std::size_t i = 0; i < n; ++i)
+        system.add(taut::Constraint::unilateral("stop " + std::to_string(i), up(i), up(i + 1)));
+    }
+    taut::Displacement up(const std::size_t i) const
+    {
+      return system.displacement(i, {}, {0., 1., 0.});
+    }
+
+    /// F x by its three diagonals.
+    std::vector<double> product(const std::vector<double> &x) const
+    {
+      const auto flexibility = [](const std::size_t i)
+      { return 1. / (mass_factor * mass(i) + stiffness(i)); };
+      std::vector<double> y(n);
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        y[i] = (flexibility(i) + flexibility(i + 1)) * x[i];
+        if (i > 0)
+          y[i] -= flexibility(i) * x[i - 1];
+        if (i + 1 < n)
+          y[i] -= flexibility(i + 1) * x[i + 1];
+      }
+      return y;
+    }
+
+    const std::size_t n;
+    const taut::Communicator processes = taut::Communicator(MPI_COMM_WORLD);
+    taut::System system = taut::System(processes);
+    taut::Structure structure;
+    taut::Constraints constraints;
+    taut::FactoredStructure solvers;
+  };
+
+  void expect_close(const double *found, const std::vector<double> &expected)
+  {
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found[i], expected[i], 1e-10 * std::fabs(expected[i]) + 1e-20) << i;
+  }
+} // namespace
+
+/// Counts the sums over ranks of the library, which calls this function in place of MPI's.
+extern "C" int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type, MPI_Op how,
+                             MPI_Comm processes)
+{
+  ++n_exchanges;
+  return PMPI_Allreduce(in, out, n, type, how, processes);
+}
+
+TEST(Operators, apply_and_aztecoo)
+{
+  const Row row(7);
+  const taut::BodyConstraints of_bodies(row.structure, row.constraints);
+  taut::ContactSchurOperator F(row.solvers, of_bodies, row.n);
+  std::vector<double> known(row.n);
+  for (std::size_t i = 0; i < row.n; ++i)
+    known[i] = std::cos(1. + 2. * i);
+  const std::vector<double> expected = row.product(known);
+  Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
+  std::copy(known.begin(), known.end(), x.Values());
+  ASSERT_EQ(F.Apply(x, y), 0);
+  expect_close(y.Values(), expected);
+
+  Epetra_Vector solution(F.OperatorDomainMap());
+  Epetra_LinearProblem problem(&F, &solution, &y);
+  AztecOO solver(problem);
+  solver.SetAztecOption(AZ_solver, AZ_cg);
+  solver.SetAztecOption(AZ_precond, AZ_none);
+  solver.SetAztecOption(AZ_output, AZ_none);
+  ASSERT_EQ(solver.Iterate(100, 1e-14), 0);
+  expect_close(solution.Values(), known);
+}
+
+TEST(Operators, setting_up_takes_as_many_exchanges_whatever_the_size)
+{
+  for (const char *form : {"assembled dense", "assembled sparse", "condensed", "matrix-free"})
+  {
+    std::vector<long> exchanges;
+    for (const std::size_t n : {8, 40})
+    {
+      const Row row(n);
+      taut::InterfaceParameters parameters;
+      parameters.form = form;
+      const auto F = taut::make_schur_complement(parameters, row.solvers, row.constraints);
+      const long before = n_exchanges;
+      F->setup(std::vector<double>(n, 0.));
+      exchanges.push_back(n_exchanges - before);
+      std::vector<double> x(n, 1.), y(n);
+      F->matrix().apply(x, y);
+      expect_close(y.data(), row.product(x));
+    }
+    EXPECT_EQ(exchanges[0], exchanges[1]) << form;
+    EXPECT_EQ(exchanges[0] > 0, taut::Communicator(MPI_COMM_WORLD).size() > 1) << form;
+  }
+}
