@@ -80,7 +80,15 @@ namespace
   void expect_close(const double *found, const std::vector<double> &expected)
   {
     for (std::size_t i = 0; i < expected.size(); ++i)
-      EXPECT_NEAR(found[i], expected[i], 1e-10 * std::fabs(expected[i]) + 1e-20) << i;
+      EXPECT_NEAR(found[i], expected[i], 1e-10 * std::fabs(expected[i])) << i;
+  }
+
+  std::vector<double> some_multipliers(const std::size_t n)
+  {
+    std::vector<double> result(n);
+    for (std::size_t i = 0; i < n; ++i)
+      result[i] = std::cos(1. + 2. * i);
+    return result;
   }
 } // namespace
 
@@ -97,10 +105,7 @@ TEST(Operators, apply_and_aztecoo)
   const Row row(7);
   const taut::BodyConstraints of_bodies(row.structure, row.constraints);
   taut::ContactSchurOperator F(row.solvers, of_bodies, row.n);
-  std::vector<double> known(row.n);
-  for (std::size_t i = 0; i < row.n; ++i)
-    known[i] = std::cos(1. + 2. * i);
-  const std::vector<double> expected = row.product(known);
+  const std::vector<double> known = some_multipliers(row.n), expected = row.product(known);
   Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
   std::copy(known.begin(), known.end(), x.Values());
   ASSERT_EQ(F.Apply(x, y), 0);
@@ -130,7 +135,8 @@ TEST(Operators, setting_up_takes_as_many_exchanges_whatever_the_size)
       const long before = n_exchanges;
       F->setup(std::vector<double>(n, 0.));
       exchanges.push_back(n_exchanges - before);
-      std::vector<double> x(n, 1.), y(n);
+      const std::vector<double> x = some_multipliers(n);
+      std::vector<double> y(n);
       F->matrix().apply(x, y);
       expect_close(y.data(), row.product(x));
     }

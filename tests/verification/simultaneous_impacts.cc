@@ -123,19 +123,21 @@ TEST(SimultaneousImpacts, are_none_at_rest)
 // limits the rebound of the mass, and nothing connects it with that of the ball.
 TEST(SimultaneousImpacts, balls_that_nothing_connects_bounce_as_alone)
 {
-  const std::string head = "Gravity = 0, -9.81; Start = given\nTime: End = 0.3; Step = 1e-3\n"
-                           "Time/Moreau-Jean: Restitution = 1\n",
-                    ball = "Mass ball: Position = 0, 0; Motions = y; Mass = 1; "
-                           "Initial velocity = 0, -1, 0\n"
-                           "Link floor: Type = stop; From = ball; Direction = 0, 1; Gap = 0.0105\n",
-                    held = "Mass held: Position = 1, 0; Motions = y; Mass = 1; "
-                           "Initial velocity = 0, -1, 0\n"
-                           "Link spring: Type = spring; From = held; Direction = 0, 1; "
-                           "Stiffness = 3e4\n"
-                           "Link rest: Type = stop; From = held; Direction = 0, 1; Gap = 0.0055\n";
+  const std::string
+      head = "Gravity = -9.81, 0; Start = given\nTime: End = 0.3; Step = 1e-3\n"
+             "Time/Moreau-Jean: Restitution = 1\n",
+      ball = "Mass ball: Position = 0, 0; Motions = x; Mass = 1; "
+             "Initial velocity = -1, 0, 0\n"
+             "Link floor: Type = stop; From = ball; To = ground; Direction = -1, 0; Gap = 0.0067\n",
+      held = "Mass held: Position = 0, 1; Motions = x; Mass = 1; "
+             "Initial velocity = -1, 0, 0\n"
+             "Link spring: Type = joint; From = held; To = ground; Direction = 1, 0; "
+             "Stiffness = 3e4\n"
+             "Link rest: Type = stop; From = held; To = ground; Direction = -1, 0; Gap = 0.0055\n";
   const Outcome alone = run(head + ball), slow = run(head + held),
                 together = run(head + ball + held);
   ASSERT_EQ(together.velocity.size(), 2u);
+  EXPECT_GT(std::fabs(alone.velocity[0] + 1. + 9.81 * .3), .1);
   EXPECT_NEAR(together.velocity[0], alone.velocity[0], 1e-12);
   EXPECT_NEAR(together.velocity[1], slow.velocity[0], 1e-12);
 }
