@@ -21,7 +21,7 @@ namespace taut
   namespace
   {
     /// First line of the file. The version changes with the stored data.
-    const std::string first_line = "Taut checkpoint, version 10\n";
+    const std::string first_line = "Taut checkpoint, version 11\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
     std::string checksum(const std::string &bytes)

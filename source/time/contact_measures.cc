@@ -277,25 +277,14 @@ namespace taut
 
   void ContactMeasures::find_momentum(Summary &result) const
   {
-    const ConnectedBodies &groups = energies.groups();
-    std::vector<double> largest(contact_gains.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].cone.may_open())
+      if (const LinkEnergies::Account account = energies.account(i);
+          account.relative_momentum > result.relative_momentum)
       {
-        double &impulse = largest[groups.of_constraint(i)];
-        impulse = std::max(impulse, forces[i].impulse);
+        result.relative_momentum = account.relative_momentum;
+        result.momentum = account.momentum;
+        result.momentum_constraint = i;
       }
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      if (!constraints[i].cone.may_open())
-        continue;
-      const double momentum = energies.account(i).momentum,
-                   scale = largest[groups.of_constraint(i)];
-      if (!(momentum > result.relative_momentum * scale))
-        continue;
-      result.relative_momentum = momentum / scale;
-      result.momentum_constraint = i;
-    }
   }
 
   ContactMeasures::Summary ContactMeasures::summary() const

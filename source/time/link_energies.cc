@@ -13,6 +13,9 @@ namespace taut
   {
     /// Part of the energy of the reference that is rounding in a long run at rest.
     constexpr double rounding_of_energy = 1e-8;
+
+    /// Part of the energy of a contact below which a step does not change it.
+    constexpr double small_change = 1e-2;
   } // namespace
 
   LinkEnergies::LinkEnergies(const Structure &structure, const Constraints &constraints,
@@ -85,8 +88,13 @@ namespace taut
   {
     const double energy = std::fabs(row.closing);
     (row.closing > 0. ? account.given : account.taken) += energy;
-    if (row.fastest > 0.)
-      account.momentum = std::max(account.momentum, 2. * energy / row.fastest);
+    const double momentum = row.fastest > 0. ? 2. * energy / row.fastest : 0.,
+                 impulse = row.impulse_until - row.impulse_before;
+    if (impulse > 0. && momentum > account.relative_momentum * impulse)
+    {
+      account.relative_momentum = momentum / impulse;
+      account.momentum = momentum;
+    }
     if (!(energy > account.largest))
       return;
     account.largest = energy;
@@ -97,6 +105,11 @@ namespace taut
   void LinkEnergies::record(const State &state, const StepCoefficients &c)
   {
     const bool whole = c.mean_force && !c.velocity_level; // gains count in groups
+    const auto impulse_of = [&](const std::size_t i) -> double &
+    { return energies[connected.of_constraint(i)].impulse[constraints[i].rotational ? 1 : 0]; };
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (constraints[i].cone.may_open())
+        impulse_of(i) += state.multiplier[i] * state.last_step;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (!constraints[i].cone.may_open())
@@ -112,12 +125,15 @@ namespace taut
         {
           row.begin = state.time - state.last_step;
           row.fastest = row.rate;
+          row.impulse_before = row.impulse;
         }
         row.fastest = std::max(row.fastest, rate);
-        if (!constraints[i].spring.is_rigid())
-          row.closing += gain(i, state, c);
-        else if (!whole)
-          row.closing += std::max(0., gain(i, state, c));
+        const double change = !constraints[i].spring.is_rigid() ? gain(i, state, c)
+                              : whole                           ? 0.
+                                                                : std::max(0., gain(i, state, c));
+        row.closing += change;
+        if (std::fabs(change) > small_change * std::fabs(row.closing))
+          row.impulse_until = impulse_of(i);
         if (!(N > 0.))
         {
           add_contact(row.account, row, state.time);
@@ -131,6 +147,7 @@ namespace taut
       row.end = state.time;
       row.gap = gap;
       row.u = state.link_springs[i].u;
+      row.impulse = impulse_of(i);
     }
   }
 

@@ -24,8 +24,8 @@ namespace taut
    * LinkEnergies, over the energy of its group of connected bodies. If rigid constraints have mean
    * forces and conditions on gaps, unexplained gains of the group (State::energy_gains) count, too.
    *
-   * Momentum: the momentum error of a body after a contact with a wrong energy, over the largest
-   * impulse of a constraint of its group.
+   * Momentum: the momentum error of a body after a contact with a wrong energy, over the impulse of
+   * its group in the time of this error.
    *
    * Energy of large motions: the sum of unexplained energy gains of a group with a nonlinear body
    * or a turning constraint, over the energy of the group.
@@ -76,7 +76,8 @@ namespace taut
       double relative_motion_energy = 0.;        ///< over the scale [1]
       std::size_t energy_constraint = 0;         ///< the worst constraint
       double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
-      double relative_momentum = 0.;             ///< error over the largest impulse of a group [1]
+      double momentum = 0.;                      ///< error of a contact [N s, N m s]
+      double relative_momentum = 0.;             ///< over the impulse of its group meanwhile [1]
       std::size_t momentum_constraint = 0;
       double gap = 0.; ///< [m, rad]
       std::size_t gap_constraint = 0;
@@ -90,7 +91,7 @@ namespace taut
     /// Parts of the scale above which contact energy is a warning, and an error.
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
 
-    /// Part of the largest impulse above which a momentum error is a warning.
+    /// Part of the impulse above which a momentum error is a warning.
     static constexpr double suspicious_momentum = MotionDifference::impulse_bound;
 
     /// Resolution above which the report mentions it.
