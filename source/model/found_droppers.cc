@@ -4,6 +4,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/model/scene_part.h>
 #include <taut/scene/entries.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -170,14 +171,35 @@ namespace taut
       const StaticState state;
     };
 
-    /// Bilateral constraints that hold the `to` ends: their multipliers are minus the tensions. 0
-    /// for ropes and for droppers of a given length.
-    std::vector<double> tensions(const Scene &base, const std::vector<FoundDropper> &droppers,
-                                 const DropperForm &before, const SolverParameters &parameters)
+    /// Whether forces at the `from` ends move what holds the `to` ends, through other links.
+    bool are_ends_connected(const Scene &base, const std::vector<FoundDropper> &droppers)
     {
       Scene scene = base;
+      std::vector<Attachment> lower;
       for (const FoundDropper &dropper : droppers)
+        if (dropper.is_given() || dropper.is_rope())
+          scene.links.push_back(dropper.link);
+        else
+          lower.push_back(dropper.link.to);
+      const ScenePart part = connected_part(scene, lower);
+      return std::any_of(droppers.begin(), droppers.end(),
+                         [&](const FoundDropper &dropper)
+                         {
+                           const Attachment from = part.inside(dropper.link.from);
+                           return from.kind != Attachment::Kind::ground && from.index != ground;
+                         });
+    }
+
+    /// Bilateral constraints that hold the `to` ends: their multipliers are minus the tensions. 0
+    /// for ropes and for droppers of a given length. The `from` ends carry the tensions @p last.
+    std::vector<double> tensions(const Scene &base, const std::vector<FoundDropper> &droppers,
+                                 const std::vector<double> &last, const DropperForm &before,
+                                 const SolverParameters &parameters)
+    {
+      Scene scene = base;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
       {
+        const FoundDropper &dropper = droppers[i];
         const Link &link = dropper.link;
         add_mass(link, scene);
         if (dropper.is_given())
@@ -190,6 +212,8 @@ namespace taut
           scene.links.push_back(spring_between(dropper, link.direction, dropper.force_density()));
           continue;
         }
+        if (!last.empty())
+          scene.loads.push_back(force(link, link.from, last[i]));
         Link hold;
         hold.name = link.name;
         hold.kind = LinkKind::joint;
@@ -202,27 +226,53 @@ namespace taut
       const AtRest rest(scene, parameters);
       std::vector<double> result;
       for (std::size_t i = 0; i < droppers.size(); ++i)
-      {
-        if (droppers[i].is_rope() || droppers[i].is_given())
-        {
-          result.push_back(0.);
-          continue;
-        }
-        const Link &link = droppers[i].link;
-        const double tension = -rest.multiplier(base.links.size() + i);
-        if (!(tension >= 0.))
-        {
+        result.push_back(droppers[i].is_rope() || droppers[i].is_given()
+                             ? 0.
+                             : -rest.multiplier(base.links.size() + i));
+      return result;
+    }
+
+    void check_pull(const std::vector<FoundDropper> &droppers, const std::vector<double> &tension)
+    {
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (const Link &link = droppers[i].link; !(tension[i] >= 0.))
           throw EntryError(link.origin,
-                           to_text("dropper '", link.name, "' would have to push with ", -tension,
-                                   " N to hold its wire at the prescribed height, ",
+                           to_text("dropper '", link.name, "' would have to push with ",
+                                   -tension[i], " N to hold its wire at the prescribed height, ",
                                    -link.form.prescribed_displacement,
                                    " m as it was read. Move or remove it, or prescribe another "
                                    "height."));
-        }
-        result.push_back(tension);
-      }
-      return result;
     }
+
+    /// Solves x = G(x) for a G that is about linear, with the steps of J. Barzilai, J. M. Borwein,
+    /// IMA J. Numer. Anal. 8 (1988): each takes the slope of the last one.
+    class FixedPoint
+    {
+    public:
+      /// From x to the next one.
+      void advance(const std::vector<double> &G, std::vector<double> &x)
+      {
+        double square = 0., slope = 0.;
+        std::vector<double> miss(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i)
+        {
+          miss[i] = G[i] - x[i];
+          if (last_miss.empty())
+            continue;
+          const double step = x[i] - last_x[i];
+          square += step * step;
+          slope += step * (last_miss[i] - miss[i]);
+        }
+        last_x = x;
+        const double factor = slope > 0. ? square / slope : 1.;
+        for (std::size_t i = 0; i < x.size(); ++i)
+          x[i] += factor * miss[i];
+        last_miss = std::move(miss);
+      }
+
+    private:
+      std::vector<double> last_x, last_miss;
+    };
 
     /**
      * The droppers under their tensions. If the direction of a dropper is found, `tension` is the
@@ -324,47 +374,61 @@ namespace taut
     // Rounding of the heights of a long line keeps changes of lengths above `settled`, but not
     // above `rounding`, which are a hundredth of a newton for a dropper of 1e5 N/m and 1 m.
     constexpr double settled = 1e-12, rounding = 1e-7, not_less = .5;
-    constexpr int max_iterations = 30;
-    const auto n_given = std::count_if(droppers.begin(), droppers.end(),
-                                       [](const FoundDropper &d) { return d.is_given(); });
-    const bool is_mixed = n_given > 0 && n_given < static_cast<long>(droppers.size());
+    // Without other links between their ends the second tensions are the last ones. The changes of
+    // a FixedPoint do not fall in each iteration.
+    constexpr int max_iterations = 100, patience = 5;
+    const bool is_connected = are_ends_connected(base, droppers);
     // The constraint at the lower end of a dropper carries the half of its mass that is there. The
     // tensions of many droppers follow their lengths by that, without another equilibrium.
     constexpr std::size_t many = 200;
-    const bool weigh =
-        droppers.size() > many && std::all_of(droppers.begin(), droppers.end(),
-                                              [](const FoundDropper &d) {
-                                                return !d.is_rope() && !d.is_given() &&
-                                                       d.link.to.kind == Attachment::Kind::wire;
-                                              });
+    const bool weigh = droppers.size() > many && !is_connected &&
+                       std::all_of(droppers.begin(), droppers.end(),
+                                   [](const FoundDropper &d) {
+                                     return !d.is_rope() && !d.is_given() &&
+                                            d.link.to.kind == Attachment::Kind::wire;
+                                   });
     std::vector<double> tension;
+    FixedPoint tensions_of_ends;
     DropperForm before;
-    double last = std::numeric_limits<double>::infinity();
-    for (int iteration = 0;; ++iteration)
+    double least = std::numeric_limits<double>::infinity();
+    for (int iteration = 0, stalled = 0;; ++iteration)
     {
       if (iteration == 0 || !weigh)
-        tension = tensions(base, droppers, before, parameters);
+      {
+        const std::vector<double> found = tensions(base, droppers, tension, before, parameters);
+        if (is_connected && iteration > 0)
+          tensions_of_ends.advance(found, tension);
+        else
+          tension = found;
+      }
+      if (!is_connected)
+        check_pull(droppers, tension);
       const DropperForm form = form_under(base, droppers, tension, before, parameters);
       double change = 0.;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         Link &link = droppers[i].link;
         const double length = droppers[i].length_over(form.length[i]);
-        if (link.form.mass_per_length > 0. || is_mixed)
+        if (link.form.mass_per_length > 0. || is_connected)
           change = std::max(change, std::fabs(length - link.length) / length);
         tension[i] += .5 * link.form.mass_per_length * (length - link.length) *
                       dot(base.gravity, link.direction);
         link.length = length;
       }
-      if (change < settled || (change < rounding && change > not_less * last))
+      stalled = change > not_less * least ? stalled + 1 : 0;
+      if (change < settled || (change < rounding && stalled > (is_connected ? patience : 0)))
+      {
+        check_pull(droppers, tension);
         return form;
+      }
       if (iteration + 1 == max_iterations)
         throw EntryError(
             droppers.front().link.origin,
-            "the dropper lengths do not settle: their weight decides the shape of the wires. "
-            "Check the mass per length of the droppers.");
-      last = change;
-      if (is_mixed)
+            "the dropper lengths do not settle: the weight of droppers, or links beside them, "
+            "decide the shape of the wires. Check the mass per length of the droppers, and the "
+            "lengths that are given.");
+      least = std::min(least, change);
+      if (is_connected)
         before = form;
     }
   }

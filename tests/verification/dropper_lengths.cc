@@ -5,6 +5,9 @@
 // under a force in closed form.
 #include "scene_tests.h"
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <map>
 
 using namespace verification;
@@ -164,6 +167,88 @@ TEST(DropperLengths, of_results_stay_where_a_dropper_breaks_or_moves)
       has(error_of(
               [&] { Session(with("8, 17, 24"), {"Catenary/Droppers/Lengths=" + built.folder()}); }),
           "none of them at 17 m"));
+}
+
+// Two strings of 50 m, of which some droppers have lengths and the others are found. Expected: the
+// deflections of strings under their weight and point forces, x (L - s) / (L T) for x < s, and one
+// equation for each dropper: its length, or the height of the contact wire.
+TEST(DropperLengths, given_beside_found_ones_are_those_of_strings)
+{
+  constexpr double g = 9.81, L = 50., k = 1e5, T[] = {15000., 9000.}, m[] = {1.1, .9}, high = 1.4;
+  const std::vector<double> x = {4., 11., 19., 25., 32., 41., 47.};
+  const std::size_t n = x.size();
+  const auto sag = [&](const int wire, const double at)
+  { return m[wire] * g * at * (L - at) / (2. * T[wire]); };
+  const auto by_force = [&](const int wire, const double at, const double force)
+  { return std::fmin(at, force) * (L - std::fmax(at, force)) / (L * T[wire]); };
+  const auto solve = [](dealii::FullMatrix<double> A, const dealii::Vector<double> &b)
+  {
+    dealii::Vector<double> N(b.size());
+    A.gauss_jordan();
+    A.vmult(N, b);
+    return N;
+  };
+  // Tensions that hold the contact wire level.
+  dealii::FullMatrix<double> of_contact_wire(n);
+  dealii::Vector<double> sags(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    sags(i) = sag(1, x[i]);
+    for (std::size_t j = 0; j < n; ++j)
+      of_contact_wire(i, j) = by_force(1, x[i], x[j]);
+  }
+  const dealii::Vector<double> level = solve(of_contact_wire, sags);
+  for (const std::vector<bool> &found :
+       {std::vector<bool>{true, false, true, true, false, true, false},
+        {false, false, false, true, false, false, false},
+        {true, true, true, true, true, false, true},
+        {false, true, true, false, false, true, true}})
+  {
+    // The given lengths are those of a level wire, but for some mm.
+    dealii::FullMatrix<double> A = of_contact_wire;
+    dealii::Vector<double> b = sags;
+    std::vector<double> given(n, 0.);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      given[i] = high - sag(0, x[i]) - level(i) / k - .004 + .003 * (i % 3);
+      for (std::size_t j = 0; j < n; ++j)
+        given[i] -= by_force(0, x[i], x[j]) * level(j);
+      if (found[i])
+        continue;
+      for (std::size_t j = 0; j < n; ++j)
+        A(i, j) += by_force(0, x[i], x[j]) + (i == j ? 1. / k : 0.);
+      b(i) += high - sag(0, x[i]) - given[i];
+    }
+    const dealii::Vector<double> N = solve(A, b);
+    std::string positions, lengths;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      positions += (i > 0 ? ", " : "") + number(x[i]);
+      lengths += (i > 0 ? ", " : "") + number(found[i] ? 0. : given[i]);
+    }
+    Session session(R"(Generator = catenary
+Start = equilibrium
+Catenary: Number of spans = 1; Span length = 50; Encumbrance = 1.4; Pantographs =
+Catenary/Contact wire: Model = string; Mass per length = 0.9; Tension = 9000; Element size = 1
+Catenary/Messenger wire: Model = string; Mass per length = 1.1; Tension = 15000; Element size = 1
+Catenary/Supports: Arm mass = 0
+Catenary/Droppers: Stiffness = 1e5; Positions = )" +
+                    positions + "; Lengths = " + lengths +
+                    "\nTime: Step = 1e-3; End = 0; Scheme = backward Euler\n");
+    const auto forces = forces_of(session);
+    double worst_force = 0., worst_length = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      ASSERT_GT(N(i), 0.) << i;
+      double length = high - sag(0, x[i]) + sag(1, x[i]) - N(i) / k;
+      for (std::size_t j = 0; j < n; ++j)
+        length -= (by_force(0, x[i], x[j]) + by_force(1, x[i], x[j])) * N(j);
+      raise(worst_force, forces.at("dropper 1." + std::to_string(i + 1)) - N(i));
+      raise(worst_length, session.simulation().scene().links[i].unstressed_length - length);
+    }
+    EXPECT_LT(worst_force, 1e-8);
+    EXPECT_LT(worst_length, 1e-11);
+  }
 }
 
 // A line of equal spans has the lengths of ten spans, whatever its number of spans.
