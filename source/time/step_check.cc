@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
+#include <taut/time/solver_parameters.h>
 #include <taut/time/step_check.h>
 
 namespace taut
@@ -12,10 +13,12 @@ namespace taut
     return to_text("at t = ", *time, " s: ");
   }
 
-  std::string StepCheck::remedy() const
+  std::string StepCheck::remedy(const double residual) const
   {
-    return std::string(time ? "Take a smaller step, check" : "Check") +
-           " stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
+    if (const double usual = SolverParameters().contact_tolerance; residual <= usual)
+      return to_text("Rounding may leave as much: take the default 'Contact tolerance', ", usual);
+    return std::string(time ? "Take a smaller step, or check" : "Check") +
+           " stiffness and mass for extreme ratios";
   }
 
   void StepCheck::fail(const std::string &what, const std::string &entry) const
@@ -60,7 +63,7 @@ namespace taut
       fail_contradictory(partners);
     fail(to_text("link '", constraints[certificate.worst_constraint].name,
                  "' misses the contact tolerance: residual ", certificate.complementarity, " > ",
-                 tolerance, ". ", remedy()),
+                 tolerance, ". ", remedy(certificate.complementarity)),
          constraints.origin(certificate.worst_constraint));
   }
 
@@ -76,7 +79,7 @@ namespace taut
           const Substructure &body = structure[certificate.worst_body];
           fail(to_text("body '", body.name(), "' misses the contact tolerance in its equation of ",
                        time ? "motion" : "equilibrium", ": residual ", certificate.balance, " > ",
-                       tolerance, ". ", remedy()),
+                       tolerance, ". ", remedy(certificate.balance)),
                body.origin());
         });
   }

@@ -94,6 +94,25 @@ TEST(Certificate, a_stiffness_that_was_not_factored_misses_the_balance)
   const std::string refusal = steps.refusal();
   EXPECT_TRUE(has(refusal, "body 'wire (transverse)' misses the contact tolerance in its equation"))
       << refusal;
+  EXPECT_TRUE(has(refusal, "check stiffness and mass")) << refusal;
+  EXPECT_FALSE(has(refusal, "'Contact tolerance'")) << refusal;
+}
+
+// A tolerance below rounding is what the remedy is about; a residual above the usual one is not.
+TEST(Certificate, a_tolerance_below_rounding_is_said_to_be_so)
+{
+  const std::string refusal = verification::error_of(
+      []
+      {
+        run_scene("Gravity = 0, -9.81, 0; Start = given\n"
+                  "Body arm: Type = rigid body; Mass = 2; Centre = 0.5, 0, 0; "
+                  "Moments of inertia = 0.5, 0.4, 0.3\n"
+                  "Link pivot: Type = ball joint; From = arm @ 0, 0, 0; To = ground\n"
+                  "Time: Step = 2e-3; End = 0.2\nSolver: Contact tolerance = 1e-15\n",
+                  {});
+      });
+  EXPECT_TRUE(has(refusal, "misses the contact tolerance")) << refusal;
+  EXPECT_TRUE(has(refusal, "take the default 'Contact tolerance', 1e-08")) << refusal;
 }
 
 TEST(Certificate, a_row_that_is_not_in_F_misses_the_gaps)

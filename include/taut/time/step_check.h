@@ -47,7 +47,7 @@ namespace taut
     void named(const std::function<void()> &work) const;
     [[noreturn]] void fail_contradictory(const std::vector<std::size_t> &rows) const;
     [[noreturn]] void fail(const std::string &what, const std::string &entry = "") const;
-    std::string remedy() const;
+    std::string remedy(double residual) const;
 
     const Structure &structure;
     const Constraints &constraints;
