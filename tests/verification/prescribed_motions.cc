@@ -216,7 +216,7 @@ TEST(PrescribedMotion, a_ramp_of_a_base_is_followed_with_its_energy)
           raise(error, view.state.U[0][1] - exact);
         });
     figure("ramp of a base by " + scheme + ", largest error over the ramp", error / .01);
-    EXPECT_LT(error, 1.5e-3 * .01) << scheme;
+    EXPECT_LT(error, (scheme == "BDF2" ? 1.5e-3 : 5e-4) * .01) << scheme;
     EXPECT_FALSE(has(session.log(), "Warning")) << session.log();
   }
 }
