@@ -44,6 +44,14 @@ namespace taut
       std::error_code error;
       return fs::exists(path, error) && !fs::is_directory(path, error);
     }
+
+    /// Of a file or, where it is missing, of its copy.
+    fs::path path_of(const std::string &name)
+    {
+      const fs::path folder = files().folder, path = folder / name,
+                     beside = folder / copied_name(name);
+      return !is_file(path) && is_file(beside) ? beside : path;
+    }
   } // namespace
 
   void set_data_folder(const std::string &folder)
@@ -53,6 +61,12 @@ namespace taut
     files().known.clear();
   }
 
+  bool has_data_file(const std::string &name)
+  {
+    const std::lock_guard<std::mutex> lock(files().mutex);
+    return is_file(path_of(name));
+  }
+
   std::shared_ptr<const std::string> read_data_file(const std::string &name,
                                                     const std::string &entry)
   {
@@ -60,10 +74,7 @@ namespace taut
     std::shared_ptr<const std::string> &text = files().known[name];
     if (text)
       return text;
-    fs::path path = fs::path(files().folder) / name;
-    const fs::path beside = fs::path(files().folder) / copied_name(name);
-    if (!is_file(path) && is_file(beside))
-      path = beside;
+    const fs::path path = path_of(name);
     std::ifstream in(path, std::ios::binary);
     std::string content;
     if (in && is_file(path))
@@ -135,9 +146,10 @@ namespace taut
     const fs::path path(name);
     if (!leaves_folder(path))
       return path.string();
+    if (path.filename() != "droppers.csv")
+      return path.filename().string();
     // All runs have a table of droppers: its folder says of which run.
-    return (path.filename() == "droppers.csv" ? path.parent_path().filename() / path.filename()
-                                              : path.filename())
-        .string();
+    const fs::path folder = path.lexically_normal().parent_path().filename();
+    return ((folder.empty() || folder == ".." ? "earlier_run" : folder) / path.filename()).string();
   }
 } // namespace taut

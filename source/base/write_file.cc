@@ -42,7 +42,9 @@ namespace taut
     /// A name beside @p path that no other process takes, on any machine of the disk.
     std::string own_name(const fs::path &path)
     {
-      return to_text(path.string(), ".", gethostid(), ".", getpid(), ".tmp");
+      char host[256] = "";
+      gethostname(host, sizeof(host) - 1);
+      return to_text(path.string(), ".", host, ".", getpid(), ".tmp");
     }
 
     /// Writes the file beside its place, and renames it.

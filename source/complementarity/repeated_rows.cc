@@ -14,7 +14,7 @@ namespace taut
     constexpr double rounding = 1e-5;
 
     /// Pivots over the diagonal entry: of rows that depend on others to rounding, and of rows that
-    /// do not, to half of the digits. Rows between are no joints that repeat each other.
+    /// do not, to half of the digits. With a pivot between the two nothing is said to repeat.
     constexpr double dependent = 1e-12, distinct = 1e-8;
 
     /// Part of its terms up to which F z is that of a search which is about to end.
@@ -70,8 +70,8 @@ namespace taut
     for (std::size_t p = 0; p < n; ++p)
       if (is_left[p])
         repeated.push_back(bilateral[p]);
-    const bool is_clear = pivot >= distinct;
     set_combinations();
+    const bool is_clear = pivot >= distinct && null_vectors.size() == repeated.size();
     if (!is_clear || !are_exact(problem, matrix, exact))
     {
       repeated.clear();

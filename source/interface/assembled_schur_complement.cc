@@ -46,16 +46,19 @@ namespace taut
   {
     compliance = S;
     columns.setup();
-    shares.clear();
-    for (const std::size_t i : constraints.fixed_rows())
-      for (std::size_t j = 0; j <= i; ++j)
-        shares.push_back(columns.entry(i, j));
-    processes.sum(shares);
-    const double *share = shares.data();
-    for (const std::size_t i : constraints.fixed_rows())
+    // Few exchanges, and little memory beside that of F.
+    constexpr std::size_t most_numbers = 1000000;
+    const auto &rows = constraints.fixed_rows();
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end)
     {
-      set_row(i, share);
-      share += i + 1;
+      shares.clear();
+      for (; end < rows.size() && (end == begin || shares.size() < most_numbers); ++end)
+        for (std::size_t j = 0; j <= rows[end]; ++j)
+          shares.push_back(columns.entry(rows[end], j));
+      processes.sum(shares);
+      const double *share = shares.data();
+      for (std::size_t r = begin; r < end; share += rows[r] + 1, ++r)
+        set_row(rows[r], share);
     }
     update_moving();
   }

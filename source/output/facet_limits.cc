@@ -79,7 +79,7 @@ namespace taut
   /// Of the loaded rows and their largest gap, or of all rows and their mean gap.
   FacetLimits::Found FacetLimits::find(const double *const forces) const
   {
-    double area = 0., curved = 0., height = 0., mean_gap = 0.;
+    double area = 0., curved = 0., height = 0., mean_gap = 0., highest = -1.;
     Found found;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
@@ -91,8 +91,9 @@ namespace taut
       height += row.height * row.area;
       mean_gap += row.gap * row.area;
       found.gap = std::max(found.gap, row.gap);
-      if (row.height > rows[found.place].height)
+      if (row.height > highest)
         found.place = i;
+      highest = std::max(highest, row.height);
     }
     if (!forces)
       found.gap = mean_gap / area;

@@ -2,6 +2,7 @@
 #include "line_geometry.h"
 
 #include <taut/base/csv_table.h>
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/base/patterns.h>
@@ -32,11 +33,12 @@ namespace taut
       return rows;
     }
 
-    /// Whether lengths are a folder, not lists of numbers.
+    /// Whether lengths are a folder, not lists of numbers. Its name may be a number, too.
     bool is_folder(const std::string &lengths)
     {
       return lengths.find_first_of(",;") == std::string::npos &&
-             lengths.find_first_not_of("0123456789.:+-eE ") != std::string::npos;
+             (lengths.find_first_not_of("0123456789.:+-eE ") != std::string::npos ||
+              (!lengths.empty() && has_data_file(lengths + "/droppers.csv")));
     }
 
     /// One value for all masts, or one for each.

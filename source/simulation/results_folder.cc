@@ -61,6 +61,17 @@ namespace taut
       return results;
     }
 
+    /// Removes what a process that was killed was about to rename. The folder is locked.
+    void remove_unfinished(const fs::path &folder)
+    {
+      std::error_code error;
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
+        if (entry.path().extension() == ".tmp")
+          for (const std::string &name : names_of_results())
+            if (entry.path().filename().string().compare(0, name.size() + 1, name + ".") == 0)
+              fs::remove(entry.path(), error);
+    }
+
     /// Copies of the files that a run reads must not take the place of others.
     void check_copies(const OutputParameters &output)
     {
@@ -149,6 +160,7 @@ namespace taut
           if (!processes.is_root())
             return;
           FolderLock().take(parameters.output.folder);
+          remove_unfinished(parameters.output.folder);
           check_folder(parameters);
         });
   }

@@ -265,10 +265,11 @@ namespace taut
         for (std::size_t i = 0; i < fixed_constraints.size(); ++i)
           forces_at_rest[fixed_constraints[i].name] = alone.multiplier[i];
       }
-      catch (const UserError &)
+      catch (const UserError &why)
       {
         log << "No equilibrium without the sliding contacts: displacements of probes count from "
-               "the equilibrium with them, and sags and droppers are those of it\n";
+               "the equilibrium with them, and sags and droppers are those of it ("
+            << why.what() << ")\n";
       }
     }
     figures.find_sags(model, bodies, rest);

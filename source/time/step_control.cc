@@ -195,6 +195,7 @@ namespace taut
   void StepControl::advance(TimeStepper &stepper)
   {
     const unsigned int level_before = level, n_calm_before = n_calm;
+    const long repeated_before = repeated;
     try
     {
       if (parameters.adaptive())
@@ -206,6 +207,7 @@ namespace taut
     {
       level = level_before;
       n_calm = n_calm_before;
+      repeated = repeated_before;
       throw;
     }
     const State &state = stepper.state();

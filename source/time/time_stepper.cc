@@ -102,12 +102,12 @@ namespace taut
     last = old.certificate;
     errors.largest_motions = old.motion;
     step.conditions().gaps().set_sizes(old.of_gaps);
-    constraints.set_courses(old.courses);
-    constraints.update(current.time);
-    nonlinear.return_to(current);
     if (projection && !old.rates.empty())
       projection->set_largest_rates(old.rates);
     clock.take_back();
+    constraints.set_courses(old.courses);
+    constraints.update(current.time);
+    nonlinear.return_to(current);
   }
 
   void TimeStepper::advance()
@@ -119,8 +119,16 @@ namespace taut
     }
     catch (...)
     {
-      take_back();
-      throw;
+      const std::exception_ptr error = std::current_exception();
+      try
+      {
+        take_back();
+      }
+      catch (...)
+      {
+        // A geometry that fails at the place before, too: the first error says why.
+      }
+      std::rethrow_exception(error);
     }
   }
 

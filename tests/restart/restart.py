@@ -42,6 +42,7 @@ SCENES = [
     ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1)],
     ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1, Body_messenger__Geometry="linearised",
                                         Body_contact_wire__Geometry="linearised")],
+    [pathlib.Path(__file__).parent / "two_contacts.prm", *entries(Output__Checkpoint_interval=0.05)],
     ["line_of_cables_with_weights.prm", *entries(Time__End=0.1, Statistics__Window="", Output__Checkpoint_interval=0.02)],
 ]
 
@@ -142,6 +143,7 @@ def check_killed(folder, n, ranks, scenes, rng):
                 break
             n_kills += 1
             options = [*scene, "--resume"]
+        (own / "results" / "checkpoint.some_machine.1.tmp").write_bytes(b"what a killed run was about to rename")
         result = run(own, [*scene, "--resume"], ranks)
         what = f"{scene[0]} on {ranks} ranks, run {i}"
         expect(f"{what}: resumes", result.returncode == 0, result.stderr)

@@ -8,6 +8,9 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <unistd.h>
+
+#include <filesystem>
 #include <map>
 
 using namespace verification;
@@ -271,4 +274,38 @@ TEST(DropperLengths, settle_for_any_number_of_spans)
   ASSERT_EQ(expected.size(), 9u);
   for (const int n_spans : {30, 200})
     EXPECT_LT(largest_difference(lengths(n_spans), expected), 1e-7) << n_spans;
+}
+
+// '..' and '2024' are folders where a table of droppers is there. Its copy is below the results.
+TEST(DropperLengths, of_results_in_folders_without_a_letter)
+{
+  namespace fs = std::filesystem;
+  const std::string line = scene_file("en50318_2002_250");
+  const Overrides at_rest = {"Time/End=0", "Catenary/Number of spans=1",
+                             "Catenary/Uplift positions=", "Statistics/Window="};
+  Session built(line, at_rest + Overrides{"Catenary/Droppers/Stiffness=2e4"});
+  const auto with = [](const std::string &folder)
+  { return Overrides{"Catenary/Droppers/Lengths=" + folder}; };
+  const fs::path folder =
+      fs::temp_directory_path() / ("taut_dropper_lengths_" + std::to_string(getpid()));
+  fs::create_directories(folder / "scenes" / "2024");
+  fs::copy(line, folder / "scenes" / "line.prm");
+  forces_of(built);
+  for (const fs::path &place : {folder, folder / "scenes" / "2024"})
+    fs::copy(built.folder() + "/droppers.csv", place / "droppers.csv");
+  Session expected(line, at_rest + with(built.folder())), other(line, at_rest);
+  const auto forces = forces_of(expected);
+  EXPECT_NE(forces, forces_of(other));
+  for (const std::string name : {"..", "2024"})
+  {
+    Session found((folder / "scenes" / "line.prm").string(),
+                  at_rest + with(name) + Overrides{"Output/Folder=" + (folder / "run").string()});
+    EXPECT_EQ(forces_of(found), forces) << name;
+    EXPECT_TRUE(
+        fs::exists(folder / "run" / (name == ".." ? "earlier_run" : name) / "droppers.csv"));
+    fs::remove_all(folder / "run");
+  }
+  EXPECT_EQ(read_table((folder / "droppers.csv").string()),
+            read_table(built.folder() + "/droppers.csv"));
+  fs::remove_all(folder);
 }

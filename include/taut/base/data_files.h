@@ -23,6 +23,9 @@ namespace taut
   std::shared_ptr<const std::string> read_data_file(const std::string &name,
                                                     const std::string &entry);
 
+  /// Whether read_data_file() would find a file.
+  bool has_data_file(const std::string &name);
+
   /// All files read since set_data_folder().
   DataFiles data_files();
 

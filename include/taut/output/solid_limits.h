@@ -56,15 +56,14 @@ namespace taut
     void store(Archive &archive)
     {
       for (Worst &w : worst)
-        archive &w.excess &w.value &w.limit &w.time &w.item &w.place;
+        archive &w;
       for (Turning &b : bodies)
-        archive &b.seen_stretch &b.seen_turn &b.most.energy &b.most.large &b.most.locked &b.most
-            .strain &b.most.place.x &b.most.place.y &b.most.place.z &b.time;
+        archive &b.stretch &b.turn &b.seen_stretch &b.seen_turn &b.most.energy &b.most.large &b.most
+            .locked &b.most.strain &b.most.place.x &b.most.place.y &b.most.place.z &b.time;
       for (Sliding &c : contacts)
       {
         c.facets.store(archive);
-        archive &c.carries &c.entered.excess &c.entered.value &c.entered.limit &c.entered.time &c
-            .entered.place;
+        archive &c.carries &c.entered;
       }
     }
 
@@ -89,6 +88,12 @@ namespace taut
       double excess = 0.; ///< value over limit
       double value = 0., limit = 0., time = 0.;
       std::size_t item = 0, place = 0; ///< body or contact; its line or constraint
+
+      template <typename Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &excess &value &limit &time &item &place;
+      }
     };
 
     /// Lines between nodes of a body's surface, with three forms each.
