@@ -279,7 +279,7 @@ namespace taut
     }
   }
 
-  std::vector<std::string> warnings_of_joints(const Scene &scene)
+  std::string warning_of_joints(const Scene &scene)
   {
     // The joints at each place of each two bodies.
     using Place = std::array<double, 6>;
@@ -298,7 +298,7 @@ namespace taut
       all[{a.index, b.index}][{a.place.x, a.place.y, a.place.z, b.place.x, b.place.y, b.place.z}]
           .push_back(link.name);
     }
-    std::vector<std::string> result;
+    std::string pairs;
     for (const auto &[bodies, places] : all)
     {
       std::string names;
@@ -307,14 +307,16 @@ namespace taut
           if (joints.size() < 3 && places.size() > 1)
             names += (names.empty() ? "'" : ", '") + name + "'";
       if (!names.empty())
-        result.push_back("joints " + names + " hold the rigid bodies '" +
-                         scene.bodies[bodies.first].name + "' and '" +
-                         scene.bodies[bodies.second].name +
-                         "' at a second place along directions that stay in space while the bodies "
+        pairs += (pairs.empty() ? "joints " : ", ") + names +
+                 (pairs.empty() ? " hold the rigid bodies '" : " '") +
+                 scene.bodies[bodies.first].name + "' and '" + scene.bodies[bodies.second].name +
+                 "'";
+    }
+    return pairs.empty()
+               ? ""
+               : pairs + " at a second place along directions that stay in space while the bodies "
                          "turn. This is a hinge, or a clamp, up to a mirror image only: where such "
                          "a direction meets the line between both places, the bodies part. Take a "
-                         "link of Type 'hinge' or 'universal joint'");
-    }
-    return result;
+                         "link of Type 'hinge' or 'universal joint'";
   }
 } // namespace taut

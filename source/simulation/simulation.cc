@@ -178,6 +178,7 @@ namespace taut
       return nullptr;
     RunInSteps run = motion->run_in_steps(n_steps());
     run.at_any_cost = parameters.check_steps == "yes";
+    run.other_cause = warning_of_joints(model);
     const bool is_wanted =
         run.at_any_cost || (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run));
     return is_wanted ? std::make_unique<StepAccuracy>(std::move(run)) : nullptr;

@@ -67,10 +67,11 @@ namespace taut
                      '\n');
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
-    for (const auto &warnings :
-         {parameters.scene_warnings(), warnings_of_unheld_wires(model), warnings_of_joints(model)})
+    for (const auto &warnings : {parameters.scene_warnings(), warnings_of_unheld_wires(model)})
       for (const std::string &warning : warnings)
         log << "Warning: " << warning << '\n';
+    if (const std::string warning = warning_of_joints(model); !warning.empty())
+      log << "Warning: " << warning << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     const double end = n_steps() * parameters.step;
     if (has_time() && std::fabs(end - parameters.end_time) > 1e-6 * parameters.step)

@@ -215,7 +215,8 @@ namespace taut
     const std::string body = "'" + run.structure.all_bodies()[found->body].name + "'";
     std::ostringstream out;
     out.precision(2);
-    out << "the step is too long: ";
+    if (run.other_cause.empty())
+      out << "the step is too long: ";
     if (found->is_place())
       out << "the place of " << body << " is off by " << percent(found->place)
           << " of the largest displacement at t = " << found->time << " s";
@@ -225,7 +226,9 @@ namespace taut
     else
       out << "the energy of what is connected with " << body << " is off by "
           << percent(found->energy) << " of the largest";
-    if (run.control.adaptive())
+    if (!run.other_cause.empty())
+      out << ": " << run.other_cause;
+    else if (run.control.adaptive())
       out << ". Take a Tolerance of about "
           << run.control.tolerance * std::pow(rounding_of_lengths * part, power_of_tolerance);
     else
@@ -239,7 +242,10 @@ namespace taut
       return "Steps: the error is not known, as " + reason + '\n';
     std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
                        percent(found->impulse) + ", of energies " + percent(found->energy) +
-                       " of the largest, from runs with other steps\n";
+                       " of the largest, from runs with other steps";
+    if (too_long && !run.other_cause.empty())
+      return text + ". The cause may be the joints that the log warns of\n";
+    text += '\n';
     for (const Warning &warning : warnings())
       text += "  Warning: " + warning.message + '\n';
     return text;

@@ -34,9 +34,9 @@ namespace taut
    */
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies);
 
-  /// A warning for each two rigid bodies that joints along some fixed directions hold together at
-  /// two places or more. Such joints are a hinge until both bodies have turned.
-  std::vector<std::string> warnings_of_joints(const Scene &scene);
+  /// A warning of rigid bodies that joints along some fixed directions hold together at two places
+  /// or more; empty: there are none. Such joints are a hinge until both bodies have turned.
+  std::string warning_of_joints(const Scene &scene);
 } // namespace taut
 
 #endif

@@ -26,8 +26,9 @@ namespace taut
     std::vector<LongestStep> longest_steps; ///< see StepControl
     const Reference &reference;
     const State &start;
-    bool at_rest;             ///< the start is an equilibrium
-    bool at_any_cost = false; ///< allows other runs at any cost
+    bool at_rest;                 ///< the start is an equilibrium
+    bool at_any_cost = false;     ///< allows other runs at any cost
+    std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
   };
 
   /**
