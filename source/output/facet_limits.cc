@@ -19,6 +19,9 @@ namespace taut
 
     /// Part of the contact from which on it is one of curved faces, not of cut corners.
     constexpr double curved_part = .5;
+
+    /// Part of the contact with nodes opposite each other from which on its meshes match.
+    constexpr double matched_part = .5;
   } // namespace
 
   std::vector<double> element_lengths(const ContactSurface &surface)
@@ -46,11 +49,11 @@ namespace taut
       of_master = heights_of_arcs(master);
     const std::vector<double> slave_faces = element_lengths(slave),
                               master_faces = element_lengths(master);
-    double highest = 0.;
+    double area = 0., opposite_area = 0.;
     for (const SurfaceConstraint &c : geometry.constraints)
     {
       Row row{of_slave[c.node], slave_faces[c.node], std::fabs(c.gap), c.area, c.point};
-      unsigned int of_row = slave.degree;
+      row.degree = slave.degree;
       double nearest = std::numeric_limits<double>::infinity();
       for (const NodeWeight &w : c.master)
       {
@@ -58,18 +61,26 @@ namespace taut
         {
           row.height = of_master[w.node];
           row.face = master_faces[w.node];
-          of_row = master.degree;
+          row.degree = master.degree;
         }
         const Coordinates apart = master.points[w.node] - slave.points[c.node];
         if (norm(w.weight) > opposite)
           nearest = std::min(nearest, norm(add_scaled(apart, -dot(apart, c.normal), c.normal)));
       }
-      if (nearest < opposite * row.face)
+      row.is_opposite = nearest < opposite * row.face;
+      rows.push_back(row);
+      area += row.area;
+      opposite_area += row.is_opposite ? row.area : 0.;
+    }
+    // Faces of meshes that match touch each other. Single nodes do not make a match.
+    double highest = 0.;
+    for (Row &row : rows)
+    {
+      if (row.is_opposite && opposite_area > matched_part * area)
         row.height = 0.;
       if (row.height > highest)
-        degree = of_row;
+        degree = row.degree;
       highest = std::max(highest, row.height);
-      rows.push_back(row);
     }
     if (highest > 0.)
       least = degree == 1 ? least_linear : least_quadratic;

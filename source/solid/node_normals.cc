@@ -55,13 +55,15 @@ namespace taut
         at_node[geometry.nodes(f)[i]].push_back(normals.at(f, i));
     const auto angle = [](const Coordinates &a, const Coordinates &b)
     { return std::atan2(norm(cross(a, b)), dot(a, b)); };
-    const auto mean_normal = [&](const std::size_t f, const unsigned int i)
+    // Of the mean normal at a node of a face, to the normal of a chord.
+    const auto inclination =
+        [&](const std::size_t f, const unsigned int i, const Coordinates &chord)
     {
       Coordinates sum;
       for (const Coordinates &n : at_node[geometry.nodes(f)[i]])
         if (angle(n, normals.at(f, i)) < corner)
           sum = add_scaled(sum, 1., n);
-      return sum;
+      return std::fabs(std::asin(dot(sum, chord) / (norm(sum) * norm(chord))));
     };
     std::vector<double> result(surface.points.size(), 0.);
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
@@ -73,8 +75,10 @@ namespace taut
       {
         const Coordinates a = geometry.point(nodes[edge.first]),
                           b = geometry.point(nodes[edge.second]);
+        // Where the curve ends, the mean normal is that of the chord.
         const double of_arc =
-            norm(b - a) * angle(mean_normal(f, edge.first), mean_normal(f, edge.second)) / 8.;
+            std::max(inclination(f, edge.first, b - a), inclination(f, edge.second, b - a)) *
+            norm(b - a) / 4.;
         if (surface.degree == 1 || norm(geometry.point(nodes[edge.middle]) -
                                         scaled(.5, add_scaled(a, 1., b))) < follows * of_arc)
           height = std::max(height, of_arc);

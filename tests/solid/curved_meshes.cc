@@ -134,12 +134,12 @@ namespace
   };
 
   /// A block below y = sqrt(1 - x^2), x up to 0.6 m, of straight quadrilaterals, those below its
-  /// top 0.04 m wide: boundary 10 is x = 0, 12 y = 0, 13 the top.
-  MeshFile round_block()
+  /// top so wide [m]: boundary 10 is x = 0, 12 y = 0, 13 the top.
+  MeshFile round_block(const double width = .04)
   {
     std::vector<double> x = {0.}, part = {1.};
     while (x.back() < .6 - 1e-9)
-      x.push_back(x.back() < .2 - 1e-9 ? x.back() + .04 : x.back() + .05);
+      x.push_back(x.back() < .2 - 1e-9 ? x.back() + width : x.back() + .05);
     for (double height = .04; part.back() > height; height = std::fmin(.1, 1.3 * height))
       part.push_back(part.back() - height);
     part.back() = 0.;
@@ -304,6 +304,50 @@ TEST(SolidMeshes, a_shaft_in_a_hub_of_straight_faces)
     EXPECT_NEAR(mean_pressure(*found), p, 5e-3 * p);
     EXPECT_FALSE(has(found->log, "Warning")) << found->log;
   }
+}
+
+// Claim: a plate under a roller of straight faces is warned of with the height of the arcs, until
+// the faces have the size that the warning names; the force then is that of the circle. Expected:
+// the height R (1 - cos(a / 2)), a tenth of the gap with this size, and the force with degree 2.
+TEST(SolidMeshes, a_plate_under_a_roller_of_straight_faces)
+{
+  const auto pressed = [](const double width, const std::string &degree)
+  {
+    const MeshFile roller = round_block(width);
+    return run(
+        scene("equilibrium",
+              body("roller", "File = " + roller.path() + "; Curved boundaries = 13: circle, 0, 0",
+                   "Degree = " + degree + "; Symmetry boundaries = 10, 12") +
+                  body("plate", "Arguments = 60, 30 : 0, 0.998 : 0.6, 1.298",
+                       "Degree = " + degree + "; Symmetry boundaries = 0, 3"),
+              contact("plate: 2", "roller: 13") + at_rest));
+  };
+  const auto force = [](const Ran &found)
+  { return std::accumulate(found.forces.begin(), found.forces.end(), 0.); };
+  const auto after = [](const std::string &log, const std::string &words)
+  {
+    const std::size_t at = log.find(words);
+    EXPECT_NE(at, std::string::npos) << log;
+    return at == std::string::npos ? 0. : std::stod(log.substr(at + words.size()));
+  };
+  const double coarse = .1;
+  const Ran found = pressed(coarse, "1");
+  ASSERT_EQ(found.error, "");
+  const double height = after(found.log, "straight faces on a curve that are "),
+               gap = after(found.log, "interference of "),
+               size = after(found.log, "faces of at most ");
+  ASSERT_GT(size, 0.);
+  EXPECT_NEAR(height, 1. - std::cos(.5 * std::asin(coarse)), .05 * height);
+  EXPECT_NEAR(size * size / 8., .1 * gap, .05 * .1 * gap);
+  const Ran finer = pressed(.2 / std::ceil(.2 / size), "1"), curved = pressed(.02, "2");
+  for (const Ran *const right : {&finer, &curved})
+  {
+    ASSERT_EQ(right->error, "");
+    EXPECT_FALSE(has(right->log, "straight faces")) << right->log;
+  }
+  figure("plate under a roller, straight faces over circle, force", force(found) / force(curved));
+  figure("the same with faces of the size that the warning names", force(finer) / force(curved));
+  EXPECT_NEAR(force(finer), force(curved), .05 * force(curved));
 }
 
 // Claim: hexahedra follow spheres and cylinders that an entry names. Expected: all nodes of their

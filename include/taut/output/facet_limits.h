@@ -15,7 +15,7 @@ namespace taut
    * are 1 / n^2 of the gap or interference high, as in a contact of Hertz.
    *
    * - Degree 1: nodes are on the curve, and gaps are wrong by the heights of the master's arcs; at
-   *   most a tenth is good. Masters with nodes opposite those of the slave are exact.
+   *   most a tenth is good. Meshes that match, most nodes opposite each other, are exact.
    * - Degree 2: middles of faces stand back behind the curve, and pressures alternate by 0.8 / n of
    *   the largest one: by 5 % for n = 16.
    */
@@ -47,6 +47,8 @@ namespace taut
     {
       double height = 0., face = 0., gap = 0., area = 0.; ///< [m], [m^2]
       Coordinates place;
+      unsigned int degree = 1;
+      bool is_opposite = false; ///< node of the slave to one of the master
     };
     struct Found
     {
