@@ -219,10 +219,10 @@ namespace taut
                                          : dynamic_cast<const StrainedBody *>(&step.structure[k]);
         if (!strained)
           continue;
-        std::vector<double> U = step.reference.displacement[k];
-        for (std::size_t i = 0; i < U.size(); ++i)
-          U[i] += step.state.U[k][i];
-        const Straining part = strained->straining(U);
+        displacement = step.reference.displacement[k];
+        for (std::size_t i = 0; i < displacement.size(); ++i)
+          displacement[i] += step.state.U[k][i];
+        const Straining part = strained->straining(displacement);
         now.energy += part.energy;
         now.large += part.large;
         now.locked += part.locked;
@@ -339,7 +339,8 @@ namespace taut
       out << "'" << body.name << "' is too stiff by about " << 100. * w.value
           << " % or more, t = " << w.time
           << " s: elements of degree 1 lock in bending with less than four through the thickness, "
-             "and with Poisson's ratios above 0.45. Take Degree = 2, or smaller elements";
+             "triangles and tetrahedra with less than eight, and with Poisson's ratios above 0.45. "
+             "Take Degree = 2, or smaller elements";
     return out.str();
   }
 

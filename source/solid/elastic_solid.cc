@@ -288,7 +288,7 @@ namespace taut
                       o.cells = part;
                       return o;
                     }()),
-        mesh(std::move(given)), options(chosen)
+        mesh(std::move(given)), options(chosen), strained(*mesh)
   {
     std::map<dealii::types::global_dof_index, std::function<double(double)>> motions;
     std::map<dealii::types::global_dof_index, double> displacements;

@@ -20,7 +20,7 @@ namespace verification
   class MeshFile
   {
   public:
-    static constexpr int line = 1, quadrilateral = 3, hexahedron = 5;
+    static constexpr int line = 1, triangle = 2, quadrilateral = 3, tetrahedron = 4, hexahedron = 5;
 
     MeshFile()
     {

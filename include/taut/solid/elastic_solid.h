@@ -7,6 +7,9 @@
 #include <taut/substructure/fe_body.h>
 #include <taut/substructure/strained_body.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
 #include <map>
 #include <memory>
 #include <string>
@@ -123,15 +126,43 @@ namespace taut
   private:
     struct Assembled;
     class StressField;
+
+    /// Shape functions of the nodes, and their gradients, at a point of the unit cell.
+    struct NodeShapes
+    {
+      std::vector<double> values;
+      std::vector<dealii::Tensor<1, dim>> gradients;
+    };
+
+    /// A cell whose strains are measured. Measuring allocates nothing.
+    struct StrainedCell
+    {
+      explicit StrainedCell(const SolidMesh<dim> &mesh);
+      void reinit(const ElasticSolid &solid, const Cell &cell, const std::vector<double> &U);
+
+      /// dx / d(unit cell) [m], and the gradient of the displacement.
+      dealii::Tensor<2, dim> jacobian(const NodeShapes &at) const;
+      dealii::SymmetricTensor<2, dim> strain(const NodeShapes &at,
+                                             const dealii::Tensor<2, dim> &inverse) const;
+      Coordinates place(const NodeShapes &at) const;
+
+      dealii::Quadrature<dim> quadrature;
+      std::vector<NodeShapes> points; ///< of the quadrature
+      NodeShapes middle;
+      std::vector<dealii::types::global_dof_index> dofs;
+      std::vector<dealii::Tensor<1, dim>> places, displacements; ///< of the nodes [m]
+    };
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options, const SolidConditions<dim> &conditions);
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options, const SolidConditions<dim> &conditions,
                  const std::vector<Cell> &part, const Assembled &assembled);
     void add_boundary_loads();
+    double energy_that_simplices_lack(const std::vector<double> &U) const; ///< of degree 1 [J]
 
     const std::shared_ptr<const SolidMesh<dim>> mesh;
     const Options options;
+    mutable StrainedCell strained;
   };
 } // namespace taut
 

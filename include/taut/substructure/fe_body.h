@@ -113,6 +113,12 @@ namespace taut
     /// for a DoF that the body does not have.
     LinearForm displacement_of_dof(dealii::types::global_dof_index dof) const;
 
+    /// DoF @p dof of the DoFHandler, from the displacement in a State.
+    double value_of_dof(dealii::types::global_dof_index dof, const std::vector<double> &U) const
+    {
+      return forms[index(dof)].dot(U);
+    }
+
     /// All DoFs of the DoFHandler, dependent DoFs included, from the displacement in a State; zero
     /// outside of a part.
     dealii::Vector<double> all_dofs(const std::vector<double> &U) const;

@@ -18,7 +18,7 @@ namespace taut
     double large = 0.;  ///< the part of it where a principal strain exceeds small_strain [J]
 
     /// The part of it that elements with all modes of bending would not store under the same
-    /// displacement of their nodes [J].
+    /// displacement of their nodes; of simplices an estimate from the energy that they lack [J].
     double locked = 0.;
 
     double strain = 0.; ///< the largest magnitude of a principal strain
