@@ -114,6 +114,29 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
     }
 }
 
+// A mesh is found relative to the parameter file, from whichever folder it is run.
+TEST(SolidMeshes, files_are_relative_to_the_parameter_file)
+{
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("taut_relative_" + std::to_string(getpid())),
+                 file = folder / "scenes" / "plate.prm";
+  fs::create_directories(folder / "scenes" / "meshes");
+  fs::copy_file(mesh_file("quadrilaterals.msh"), folder / "scenes" / "meshes" / "plate.msh");
+  std::ofstream(file) << SceneBuilder(scene(two_materials + "; Symmetry boundaries = 11, 13; "
+                                                            "Traction = 12: 1e6, 0",
+                                            "File = meshes/plate.msh"))
+                             .text();
+  const fs::path before = fs::current_path();
+  for (const fs::path &from : {folder, folder / "scenes", fs::temp_directory_path()})
+  {
+    fs::current_path(from);
+    const std::vector<double> u = equilibrium(fs::relative(file).string()).u;
+    EXPECT_NEAR(largest(u), 1e-3 + 1e-3 / 3., 1e-14) << from;
+  }
+  fs::current_path(before);
+  fs::remove_all(folder);
+}
+
 TEST(SolidMeshes, that_are_none_end_in_one_error)
 {
   const std::string file = "File =", good = file + mesh_file("quadrilaterals.msh");

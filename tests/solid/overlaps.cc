@@ -88,8 +88,9 @@ namespace
   }
 } // namespace
 
-// Expected: 2.500e6 N by a complementarity problem of another program on this mesh. The overlap of
-// 40 mm is deeper than the elements of 25 mm.
+// Expected: 2.5068e6 N by a complementarity problem of another program on this mesh, with gaps
+// along the normals of the slave; the ends of its contact are inclined by 0.2. With gaps along y it
+// is 2.5003e6 N. The overlap of 40 mm is deeper than the elements of 25 mm.
 TEST(SolidOverlaps, interference_deeper_than_an_element)
 {
   const auto upper = strip(
@@ -101,7 +102,7 @@ TEST(SolidOverlaps, interference_deeper_than_an_element)
                 contact("up: 12", "lo: 3") + at_rest));
   ASSERT_EQ(found.error, "");
   verification::figure("interference deeper than an element, force", upwards(found), "N");
-  EXPECT_NEAR(upwards(found), 2.5e6, 1e4);
+  EXPECT_NEAR(upwards(found), 2.5068e6, 5e2);
 }
 
 // Expected: without lateral contraction, E times overlap over the length of both. Elements are of
