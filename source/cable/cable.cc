@@ -336,7 +336,6 @@ namespace taut
       return Substructure::mean_internal_force(U0, U1, step, f);
     set_positions(U0, work_0);
     set_positions(U1, work);
-    disturb(work_0, work);
     element.mean_force(work_0, work, step, f);
     frames->turn(f);
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later What makes straight pieces of a cable give way.
+#include "end_frames.h"
+
 #include <taut/cable/cable.h>
 
 #include <algorithm>
@@ -67,31 +69,31 @@ namespace taut
     return true;
   }
 
-  /// Moves the nodes of straight pieces that push to and fro across their line, at the start of a
-  /// step, q0, and at its end: the force between the two then drives them apart. Ends and `places`
-  /// stay.
-  void Cable::disturb(std::vector<double> &q0, std::vector<double> &q1) const
+  void Cable::disturb(std::vector<double> &U) const
   {
-    const double strain = data.disturbance == 0. ? 0. : element.smallest_strain(q0);
+    if (is_linear() || data.disturbance == 0.)
+      return;
+    set_positions(U, work);
+    const double strain = element.smallest_strain(work);
     if (!(strain * data.section.axial_stiffness < -rounding_of_force(0)))
       return;
     const double size =
         std::min(data.disturbance * data.length,
                  .5 * element.shortest_element() * std::sqrt(-2. * part_of_compression * strain));
     constexpr unsigned int irregular = 7, range = 13, dofs_per_node = CableElements::dofs_per_node;
+    std::vector<double> aside(U.size(), 0.);
     for (unsigned int piece = 0; piece + 1 < piece_ends.size(); ++piece)
     {
-      if (!pushes(q0, piece) || !is_straight(q0, piece))
+      if (!pushes(work, piece) || !is_straight(work, piece))
         continue;
       const unsigned int first = piece_ends[piece], last = piece_ends[piece + 1];
-      const Coordinates line = element.tangent(q0, element.place(first + samples[0])),
+      const Coordinates line = element.tangent(work, element.place(first + samples[0])),
                         way = add_scaled({}, size, across(line));
       const auto move = [&](const unsigned int dof, const double part)
       {
         const double to_and_fro = 2. * (irregular * dof * dof % range) / (range - 1.) - 1.;
-        for (std::vector<double> *const q : {&q0, &q1})
-          for (unsigned int c = 0; c < 3; ++c)
-            (*q)[dof + c] += part * to_and_fro * way[c];
+        for (unsigned int c = 0; c < 3; ++c)
+          aside[dof + c] = part * to_and_fro * way[c];
       };
       for (unsigned int i = first; i <= last; ++i)
       {
@@ -103,5 +105,8 @@ namespace taut
           move(dofs_per_node * i + 3, 1.);
       }
     }
+    frames->turn(aside);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += aside[i];
   }
 } // namespace taut

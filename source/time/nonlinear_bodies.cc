@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cache_tiles.h"
 
+#include <taut/substructure/slender_body.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 
@@ -53,6 +54,10 @@ namespace taut
         own.known_V[i] = c.v_V * before.V[k][i] + c.v_A * before.A[k][i] + c.v_dU * before.dU[k][i];
       }
       own.energy_is_known = own.U0 == own.U1;
+      own.seen_U0 = own.U0;
+      const auto *const slender = dynamic_cast<const SlenderBody *>(&(*structure)[k]);
+      if (slender && !c.is_at_rest())
+        slender->disturb(own.seen_U0);
       own.f0 = own.f = before.KU[k];
       own.dU.assign(own.U0.size(), 0.);
       own.remainder = own.dU;
@@ -74,7 +79,7 @@ namespace taut
     const Step &own = steps[k];
     set_end(own, own.dU, c);
     std::unique_ptr<SymmetricMatrix> K =
-        c.mean_force ? body.mean_tangent(own.U0, end_U, c.velocity, attempt > 0)
+        c.mean_force ? body.mean_tangent(own.seen_U0, end_U, c.velocity, attempt > 0)
                      : body.tangent(end_U, end_V, c.velocity, attempt > 0);
     if (attempt > 1)
       K->add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(*K) /
@@ -140,7 +145,7 @@ namespace taut
     end_V.resize(dU.size());
     for (std::size_t i = 0; i < dU.size(); ++i)
     {
-      end_U[i] = own.U0[i] + dU[i];
+      end_U[i] = own.seen_U0[i] + dU[i];
       end_V[i] = own.known_V[i] + coefficients.velocity * dU[i];
     }
   }
@@ -154,7 +159,7 @@ namespace taut
     const std::vector<double> &f_ref = reference->force[k];
     if (coefficients.mean_force)
     {
-      body.mean_internal_force(own.U0, end_U, step, f);
+      body.mean_internal_force(own.seen_U0, end_U, step, f);
       for (std::size_t i = 0; i < f.size(); ++i)
         f[i] = 2. * (f[i] - f_ref[i]) - own.f0[i];
       return;

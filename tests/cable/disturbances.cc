@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a straight cable that is compressed by more than it bears gives way, and does not push.
 // The log says so, with the size of the disturbance. Expected values: free flight; the spring EA /
-// L of a rod that bears the force.
+// L of a rod that bears the force; the growth of an Euler column.
 #include "verification/scene_tests.h"
 
 namespace
 {
   using namespace verification;
   using namespace taut;
+
+  const double pi = std::acos(-1.);
 
   /// A rope hangs from the origin with a mass that is thrown up.
   const std::string thrown_up = R"(Generator = network; Gravity = 0, -9.81; Start = given
@@ -43,6 +45,9 @@ TEST(CableDisturbances, rope_thrown_up)
                        "gives way"))
       << log;
   EXPECT_GT(largest(thrown_up, {"Time/Step=5e-5"}, log), found);
+  for (const char *const scheme : {"backward Euler", "BDF2"})
+    EXPECT_GT(largest(thrown_up, {std::string("Time/Scheme=") + scheme}, log), .88 * height)
+        << scheme;
   // Without it, a rod.
   EXPECT_LT(largest(thrown_up, {"Body rope/Disturbance=0"}, log), .01);
   EXPECT_TRUE(has(log, "It is straight there, and pushes, as its Disturbance is 0")) << log;
@@ -74,4 +79,45 @@ Time: Step = 5e-4; End = 0.2
       largest(scene, {"Body rope/Bending stiffness=2e4", "Body rope/Mass per length=0.001"}, log),
       .5 * std::sqrt(5. / 1e4), 1e-4);
   EXPECT_FALSE(has(log, "It is straight there")) << log;
+}
+
+// A pinned column of ANCF under twice its Euler load, P_E = pi^2 EI / L^2. Expected: its first mode
+// alone grows, as exp(s t) with s^2 = (pi / L)^2 (P - P_E) / m, in every scheme.
+TEST(CableDisturbances, a_column_buckles_in_every_scheme)
+{
+  const std::string column = R"(Generator = network; Gravity = 0, 0; Start = given
+Body column: Type = cable; From = 0, 0; To = 1, 0; Unstressed length = 1; Elements = 8
+Body column: Axial stiffness = 1e4; Bending stiffness = 1; Mass per length = 1; Axial damping = 100
+Body column: Held ends = from
+Link guide y: Type = joint; From = column @ 1, 0; To = ground; Direction = 0, 1, 0
+Link guide z: Type = joint; From = column @ 1, 0; To = ground; Direction = 0, 0, 1
+Load push: On = column @ 1, 0; Direction = -1, 0; Magnitude = 2*pi^2*min(t/0.1, 1)
+Probe middle: Point = column @ 0.5, 0; Direction = 0, 1
+Time: Step = 2e-3; End = 1.3; Allow unsuitable scheme = true
+)";
+  // Above what else the disturbance leaves, and before the column is shorter than straight.
+  constexpr double least = 1e-3, most = .03;
+  for (const std::string scheme :
+       {"generalised-alpha", "HHT", "Newmark", "BDF2", "backward Euler", "Moreau-Jean"})
+  {
+    double from = 0., to = 0., w_from = 0., w_to = 0.;
+    run_scene(column, {"Time/Scheme=" + scheme},
+              [&](const StepView &view)
+              {
+                const double w = std::fabs(view.probes[0]);
+                if (w > least && from == 0.)
+                {
+                  from = view.state.time;
+                  w_from = w;
+                }
+                if (w < most && w_to <= w)
+                {
+                  to = view.state.time;
+                  w_to = w;
+                }
+              });
+    const double rate = std::log(w_to / w_from) / (to - from) / (pi * pi);
+    figure("growth of a column that buckles, " + scheme + ", over s", rate);
+    EXPECT_NEAR(rate, 1., .03) << scheme;
+  }
 }

@@ -142,6 +142,7 @@ namespace taut
     /// The place of the largest compression, beyond rounding. A linear cable never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
+    void disturb(std::vector<double> &U) const override;
     bool is_in_tension(const std::vector<double> &U) const override;
 
     /// What a section of the cable carries, without what axial damping adds.
@@ -202,7 +203,6 @@ namespace taut
     void find_pieces();
     bool is_straight(const std::vector<double> &q, unsigned int piece) const;
     bool pushes(const std::vector<double> &q, unsigned int piece) const;
-    void disturb(std::vector<double> &q0, std::vector<double> &q1) const;
     void hold();
     void assemble();
     void straighten();

@@ -61,6 +61,10 @@ namespace taut
     /// @p slack.
     virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
 
+    /// Moves what is straight and pushes at a displacement U [m, rad] a little across its line,
+    /// where it gives way to the forces of a step.
+    virtual void disturb(std::vector<double> & /*U*/) const {}
+
     /// True if the body is in tension at a displacement U [m, rad]. Its ends may be without
     /// tension.
     virtual bool is_in_tension(const std::vector<double> &) const { return false; }

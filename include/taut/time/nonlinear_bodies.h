@@ -78,6 +78,7 @@ namespace taut
     struct Step
     {
       std::vector<double> U0;      ///< displacement from the undeformed body [m, rad]
+      std::vector<double> seen_U0; ///< where its forces see the body, see SlenderBody::disturb()
       std::vector<double> f0;      ///< minus the force of the reference [N, N m]
       std::vector<double> known_V; ///< velocity at the end without the part of the increment
       std::vector<double> dU;      ///< the guess
