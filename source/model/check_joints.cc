@@ -125,8 +125,8 @@ namespace taut
     /// direction of a body in rad. Places that are written with three digits have this error.
     constexpr double same_place = 1e-3;
 
-    /// The same up to which the distance is rounding of the places; where nothing is at rest, also
-    /// up to which it stays: a cable that starts in its own equilibrium is longer by its weight.
+    /// The same up to which the distance is rounding of the places; at a cable where nothing is at
+    /// rest, also up to which it stays: in its own equilibrium it is longer by its weight.
     constexpr double rounding_of_places = 1e-9, stretch_of_places = 1e-6;
 
     /// Largest distance of two points over their distance from the origin: both places should be
@@ -239,9 +239,10 @@ namespace taut
       const double length = result.are_points ? from_origin
                                               : std::min(length_of(scene, bodies, link.from),
                                                          length_of(scene, bodies, link.to));
-      result.rounding =
-          (scene.start == Start::equilibrium ? rounding_of_places : stretch_of_places) *
-          (std::isinf(length) ? from_origin : length);
+      const bool stays = scene.start != Start::equilibrium &&
+                         (is_on_cable(scene, link.from) || is_on_cable(scene, link.to));
+      result.rounding = (stays ? stretch_of_places : rounding_of_places) *
+                        (std::isinf(length) ? from_origin : length);
       result.most = (result.are_points ? written_alike : same_place) * length;
       return result;
     }

@@ -96,7 +96,8 @@ namespace taut
 
     /// The rows of a hinge or universal joint beside those of its ball joint: rods from the axis of
     /// one body to what is across it on the other one. Lengths of rods are products of vectors of
-    /// both bodies, so that they hold however far the bodies turn.
+    /// both bodies, so that they hold however far the bodies turn. They are those of ends at one
+    /// place, to which a start brings them.
     void add_axes(const Network::LinkItem &item, const Link &all, Scene &scene)
     {
       const auto axis_of = [&](const std::vector<double> &axis, const char *const entry) {
@@ -135,6 +136,7 @@ namespace taut
         rod.from = arm(all.from, all.to, axis);
         rod.to = arm(all.to, all.from, across[k]);
         rod.turns = true;
+        rod.unstressed_length = std::sqrt(2.) * norm(across[k] - axis);
         scene.links.push_back(rod);
       }
     }

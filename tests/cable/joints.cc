@@ -96,8 +96,9 @@ TEST(CableJoints, ball_joints_of_masses_hold_one_place)
     return error_of("Start = given\nTime: End = 0\n" + masses +
                     "Link tie: Type = ball joint; From = a; To = " + to);
   };
-  // Up to a millionth of the distance from the origin places are the same where nothing is at rest.
-  EXPECT_EQ(joined("3, 4.000004", "b"), "");
+  // Up to a billionth of the distance from the origin places are the same where nothing is at rest.
+  EXPECT_EQ(joined("3, 4.000000004", "b"), "");
+  expect(joined("3, 4.00000004", "b"), {"Link tie/To", "4e-08 m apart"});
   expect(joined("3, 4.00004", "b"), {"Link tie/To", "4e-05 m apart", "start from 'equilibrium'"});
   expect(joined("3, 4, 0.01", "b"),
          {"Link tie/To", "0.01 m apart", "From is at 3, 4, 0", "To at 3, 4, 0.01"});

@@ -426,6 +426,38 @@ TEST(RigidJoints, universal_joint_of_two_shafts)
   EXPECT_GT(std::fabs(turned), 2. * pi);
 }
 
+// A body hangs on an axis along z, whose two places are 0.37 mm apart. The start closes that.
+// Expected: its place is at the ground, and its axis along z; a universal joint keeps it in that
+// plane.
+TEST(RigidJoints, hinges_and_universal_joints_with_an_offset)
+{
+  const Coordinates offset = {1e-4, 2e-4, 3e-4};
+  for (const std::string type : {"hinge", "universal joint"})
+  {
+    Coordinates at, along;
+    double gap = 1.;
+    run_scene("Gravity = 0, -9.81, 0; Start = equilibrium\nTime: End = 0\n"
+              "Body a: Type = rigid body; Mass = 1; Centre = 0, -0.5, 0; "
+              "Moments of inertia = 0.1, 0.2, 0.25\nLink h: Type = " +
+                  type + "; To = ground @ 0, 0, 0; Axis = 0, 0, 1; From = a @ " + text(offset) +
+                  (type == "hinge" ? "\n" : "; Second axis = 0, 1, 0\n"),
+              {},
+              [&](const taut::StepView &view)
+              {
+                at = place(view, 0, offset);
+                along = place(view, 0, add_scaled(offset, 1., {0., 0., 1.})) - at;
+                gap = largest(view.state.geometric_gap);
+              });
+    EXPECT_LT(norm(at), 1e-12) << type;
+    EXPECT_LT(std::fabs(along.y), 1e-12) << type;
+    if (type == "hinge")
+    {
+      EXPECT_LT(std::fabs(along.x), 1e-12);
+    }
+    EXPECT_LT(gap, 1e-12) << type;
+  }
+}
+
 // What hinges and universal joints cannot be, with the entry.
 TEST(RigidJoints, hinges_of_what_has_no_axis)
 {

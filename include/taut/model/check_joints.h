@@ -19,8 +19,9 @@ namespace taut
 
   /**
    * The vector between the two places of a link of a ball joint at U = 0 [m]: 0 for other links,
-   * at a ground without a place, and up to rounding, a billionth of the shorter body. The length of
-   * a body is the radius of gyration of a rigid body, the diagonal of the box around the surface of
+   * at a ground without a place, and up to rounding, a billionth of the shorter body, or a
+   * millionth at a cable that does not start at rest, which its weight stretches. The length of a
+   * body is the radius of gyration of a rigid body, the diagonal of the box around the surface of
    * other bodies; that of masses and places of the ground is their distance from the origin. Called
    * by all ranks together.
    */
