@@ -81,7 +81,8 @@ namespace taut
         std::min(data.disturbance * data.length,
                  .5 * element.shortest_element() * std::sqrt(-2. * part_of_compression * strain));
     constexpr unsigned int irregular = 7, range = 13, dofs_per_node = CableElements::dofs_per_node;
-    std::vector<double> aside(U.size(), 0.);
+    std::vector<double> &aside = work_0;
+    aside.assign(U.size(), 0.);
     for (unsigned int piece = 0; piece + 1 < piece_ends.size(); ++piece)
     {
       if (!pushes(work, piece) || !is_straight(work, piece))
