@@ -277,14 +277,23 @@ namespace taut
 
   void ContactMeasures::find_momentum(Summary &result) const
   {
+    const ConnectedBodies &groups = energies.groups();
+    std::vector<double> impulse(contact_gains.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (const LinkEnergies::Account account = energies.account(i);
-          account.relative_momentum > result.relative_momentum)
-      {
-        result.relative_momentum = account.relative_momentum;
-        result.momentum = account.momentum;
-        result.momentum_constraint = i;
-      }
+    {
+      double &largest = impulse[groups.of_constraint(i)];
+      largest = std::max(largest, energies.account(i).impulse);
+    }
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      const double momentum = energies.account(i).momentum,
+                   scale = impulse[groups.of_constraint(i)];
+      if (!(scale > 0.) || !(momentum > result.relative_momentum * scale))
+        continue;
+      result.momentum = momentum;
+      result.relative_momentum = momentum / scale;
+      result.momentum_constraint = i;
+    }
   }
 
   ContactMeasures::Summary ContactMeasures::summary() const

@@ -70,8 +70,8 @@ namespace taut
     else if (s.relative_momentum > suspicious_momentum)
       add("contact_momentum", s.relative_momentum, suspicious_momentum, 0., "the impulse of '",
           constraints[s.momentum_constraint].name, "' may be off by ", 100. * s.relative_momentum,
-          " % of that of its group meanwhile, by the energy that its contacts gave or took beside "
-          "its spring and damper: the step does not resolve them. ",
+          " % of the largest of a contact, by the energy that its contacts gave or took beside its "
+          "spring and damper: the step does not resolve them. ",
           remedy());
     if (s.relative_motion_energy > suspicious_energy)
       add("motion_energy", s.relative_motion_energy, suspicious_energy, 0.,

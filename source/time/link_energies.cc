@@ -16,6 +16,9 @@ namespace taut
 
     /// Part of the energy of a contact below which a step does not change it.
     constexpr double small_change = 1e-2;
+
+    /// Part of its speed at which a body has got most of the impulse of an impact.
+    constexpr double slow = .5;
   } // namespace
 
   LinkEnergies::LinkEnergies(const Structure &structure, const Constraints &constraints,
@@ -88,13 +91,9 @@ namespace taut
   {
     const double energy = std::fabs(row.closing);
     (row.closing > 0. ? account.given : account.taken) += energy;
-    const double momentum = row.fastest > 0. ? 2. * energy / row.fastest : 0.,
-                 impulse = row.impulse_until - row.impulse_before;
-    if (impulse > 0. && momentum > account.relative_momentum * impulse)
-    {
-      account.relative_momentum = momentum / impulse;
-      account.momentum = momentum;
-    }
+    if (row.fastest > 0.)
+      account.momentum = std::max(account.momentum, 2. * energy / row.fastest);
+    account.impulse = std::max(account.impulse, row.impulse_until - row.impulse_before);
     if (!(energy > account.largest))
       return;
     account.largest = energy;
@@ -126,14 +125,16 @@ namespace taut
           row.begin = state.time - state.last_step;
           row.fastest = row.rate;
           row.impulse_before = row.impulse;
+          row.is_fast = true;
         }
         row.fastest = std::max(row.fastest, rate);
         const double change = !constraints[i].spring.is_rigid() ? gain(i, state, c)
                               : whole                           ? 0.
                                                                 : std::max(0., gain(i, state, c));
         row.closing += change;
-        if (std::fabs(change) > small_change * std::fabs(row.closing))
+        if (row.is_fast || std::fabs(change) > small_change * std::fabs(row.closing))
           row.impulse_until = impulse_of(i);
+        row.is_fast = row.is_fast && moved > row.noise && rate > slow * row.fastest;
         if (!(N > 0.))
         {
           add_contact(row.account, row, state.time);

@@ -24,8 +24,8 @@ namespace taut
    * LinkEnergies, over the energy of its group of connected bodies. If rigid constraints have mean
    * forces and conditions on gaps, unexplained gains of the group (State::energy_gains) count, too.
    *
-   * Momentum: the momentum error of a body after a contact with a wrong energy, over the impulse of
-   * its group in the time of this error.
+   * Momentum: the momentum error of a body after a contact with a wrong energy, over the largest
+   * impulse of its group in the time of such an error.
    *
    * Energy of large motions: the sum of unexplained energy gains of a group with a nonlinear body
    * or a turning constraint, over the energy of the group.
@@ -77,7 +77,7 @@ namespace taut
       std::size_t energy_constraint = 0;         ///< the worst constraint
       double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
       double momentum = 0.;                      ///< error of a contact [N s, N m s]
-      double relative_momentum = 0.;             ///< over the impulse of its group meanwhile [1]
+      double relative_momentum = 0.;             ///< over the impulse of a contact of its group [1]
       std::size_t momentum_constraint = 0;
       double gap = 0.; ///< [m, rad]
       std::size_t gap_constraint = 0;

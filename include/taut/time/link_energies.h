@@ -24,7 +24,8 @@ namespace taut
    *
    * A body that loses the energy |L| in an impact at the speed v loses a momentum of up to
    * 2|L| / v: for all of m v^2 / 2 this is m v. It is compared with the impulse of all constraints
-   * of the group from closing until L comes to rest.
+   * of the group from closing until both L and the gap come to rest, in the contact of the group
+   * with the largest one: light touches say little, and a long rest does not count.
    */
   class LinkEnergies
   {
@@ -46,15 +47,15 @@ namespace taut
       double given = 0., taken = 0.; ///< sums over its contacts [J]
       double begin = 0., end = 0.;   ///< times of the contact with most energy [s]
       double largest = 0.;           ///< energy given or taken in it [J]
-      double relative_momentum = 0.; ///< largest momentum error of a contact over the impulse [1]
-      double momentum = 0.;          ///< this error [N s, N m s]
+      double momentum = 0.;          ///< largest momentum error of a contact [N s, N m s]
+      double impulse = 0.; ///< largest impulse of the group in the time of an error [N s, N m s]
       double shortest = std::numeric_limits<double>::infinity(); ///< shortest contact so far [s]
       double step = 0.;                                          ///< last step of a contact [s]
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
       {
-        archive &given &taken &begin &end &largest &relative_momentum &momentum &shortest &step;
+        archive &given &taken &begin &end &largest &momentum &impulse &shortest &step;
       }
     };
 
@@ -85,15 +86,16 @@ namespace taut
       double closing = 0., begin = 0., end = 0.; ///< of the contact under way
       double rate = 0.,
              fastest = 0.; ///< of the gap: in the last step, in this contact [m/s, rad/s]
-      /// Of the group until closing, the last change of `closing`, and the last step [N s, N m s].
+      /// Of the group until closing, until the contact rests, and until the last step [N s, N m s].
       double impulse_before = 0., impulse_until = 0., impulse = 0.;
+      bool is_fast = false;                                 ///< since closing
       double multiplier = 0., gap = 0., u = 0., noise = 0.; ///< at the end of the last step
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
       {
         archive &account &closing &begin &end &rate &fastest &multiplier &gap &u &noise;
-        archive &impulse_before &impulse_until &impulse;
+        archive &impulse_before &impulse_until &impulse &is_fast;
       }
     };
     struct Energies
