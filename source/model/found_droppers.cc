@@ -235,7 +235,8 @@ namespace taut
     void check_pull(const std::vector<FoundDropper> &droppers, const std::vector<double> &tension)
     {
       for (std::size_t i = 0; i < droppers.size(); ++i)
-        if (const Link &link = droppers[i].link; !(tension[i] >= 0.))
+        if (const Link &link = droppers[i].link;
+            !droppers[i].is_rope() && !droppers[i].is_given() && !(tension[i] >= 0.))
           throw EntryError(link.origin,
                            to_text("dropper '", link.name, "' would have to push with ",
                                    -tension[i], " N to hold its wire at the prescribed height, ",

@@ -305,7 +305,8 @@ TEST(DropperLengths, of_results_in_folders_without_a_letter)
         fs::exists(folder / "run" / (name == ".." ? "earlier_run" : name) / "droppers.csv"));
     fs::remove_all(folder / "run");
   }
-  EXPECT_EQ(read_table((folder / "droppers.csv").string()),
-            read_table(built.folder() + "/droppers.csv"));
+  const std::string column = "cut length [m]";
+  EXPECT_EQ(read_table((folder / "droppers.csv").string()).at(column),
+            read_table(built.folder() + "/droppers.csv").at(column));
   fs::remove_all(folder);
 }
