@@ -278,22 +278,30 @@ namespace taut
   void ContactMeasures::find_momentum(Summary &result) const
   {
     const ConnectedBodies &groups = energies.groups();
-    std::vector<double> impulse(contact_gains.size(), 0.);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    struct Worst
     {
-      double &largest = impulse[groups.of_constraint(i)];
-      largest = std::max(largest, energies.account(i).impulse);
-    }
+      double impulse = 0., momentum = 0.;
+      std::size_t constraint = 0;
+    };
+    std::vector<Worst> worst(contact_gains.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      const double momentum = energies.account(i).momentum,
-                   scale = impulse[groups.of_constraint(i)];
-      if (!(scale > 0.) || !(momentum > result.relative_momentum * scale))
-        continue;
-      result.momentum = momentum;
-      result.relative_momentum = momentum / scale;
-      result.momentum_constraint = i;
-    }
+      if (constraints[i].cone.may_open())
+      {
+        const LinkEnergies::Account account = energies.account(i);
+        Worst &own = worst[groups.of_constraint(i)];
+        own.impulse = std::max(own.impulse, account.impulse);
+        if (!(account.momentum > own.momentum))
+          continue;
+        own.momentum = account.momentum;
+        own.constraint = i;
+      }
+    for (const Worst &w : worst)
+      if (w.impulse > 0. && w.momentum > result.relative_momentum * w.impulse)
+      {
+        result.momentum = w.momentum;
+        result.relative_momentum = w.momentum / w.impulse;
+        result.momentum_constraint = w.constraint;
+      }
   }
 
   ContactMeasures::Summary ContactMeasures::summary() const

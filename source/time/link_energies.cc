@@ -107,7 +107,7 @@ namespace taut
     const auto impulse_of = [&](const std::size_t i) -> double &
     { return energies[connected.of_constraint(i)].impulse[constraints[i].rotational ? 1 : 0]; };
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (constraints[i].cone.may_open())
+      if (state.multiplier[i] > 0. && constraints[i].cone.may_open())
         impulse_of(i) += state.multiplier[i] * state.last_step;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
