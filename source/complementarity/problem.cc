@@ -11,7 +11,7 @@ namespace taut
   namespace
   {
     /// Entries of F below this, relative to the largest one, are rounding.
-    constexpr double rounding = 1e-16;
+    constexpr double negligible = 1e-16;
 
     /// Part of the loads below which multipliers carry none of them.
     constexpr double balanced = 1e-3;
@@ -114,7 +114,7 @@ namespace taut
           continue;
         const double g = std::abs(vector.value[e]);
         const double weight =
-            largest > 0. ? largest / std::max(matrix.diagonal(i), rounding * largest) : 1.;
+            largest > 0. ? largest / std::max(matrix.diagonal(i), negligible * largest) : 1.;
         weighted_terms += weight * g * own_terms[i];
         weights += weight * g * g;
       }

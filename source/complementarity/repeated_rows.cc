@@ -11,7 +11,7 @@ namespace taut
   {
     /// Part of the largest multiplier of a combination below which one is rounding: pivots of
     /// dependent rows are 1e-12, and their square roots enter.
-    constexpr double rounding = 1e-5;
+    constexpr double no_part = 1e-5;
 
     /// Pivots over the diagonal entry: of rows that depend on others to rounding, and of rows that
     /// do not, to half of the digits. With a pivot between the two nothing is said to repeat.
@@ -225,7 +225,7 @@ namespace taut
       return {};
     std::vector<char> is_wanted;
     for (const std::vector<double> &z : null_vectors)
-      is_wanted.push_back(std::fabs(z[found - bilateral.begin()]) > rounding * largest(z));
+      is_wanted.push_back(std::fabs(z[found - bilateral.begin()]) > no_part * largest(z));
     return rows_of(is_wanted);
   }
 
@@ -240,7 +240,7 @@ namespace taut
     std::vector<std::size_t> result;
     for (std::size_t p = 0; p < bilateral.size(); ++p)
       for (std::size_t k = 0; k < null_vectors.size(); ++k)
-        if (is_wanted[k] && std::fabs(null_vectors[k][p]) > rounding * largest(null_vectors[k]))
+        if (is_wanted[k] && std::fabs(null_vectors[k][p]) > no_part * largest(null_vectors[k]))
         {
           result.push_back(bilateral[p]);
           break;

@@ -11,7 +11,7 @@ namespace taut
   namespace
   {
     /// Number of cuts of a body above which flexibilities are estimated, and size of the sample.
-    constexpr std::size_t most_exact = 100, n_samples = 16;
+    constexpr std::size_t most_exact = 100, n_sampled_cuts = 16;
 
     /// b^T diag(A)^-1 b.
     double local_flexibility(const LinearForm &form, const std::vector<double> &diagonal)
@@ -54,8 +54,8 @@ namespace taut
     if (cuts.size() <= most_exact || n_groups[k] > 1 ||
         solvers.structure()[k].stiffness().block_size() > 0)
       return false;
-    for (std::size_t s = 0; s < n_samples; ++s)
-      samples.push_back(cuts[s * cuts.size() / n_samples]);
+    for (std::size_t s = 0; s < n_sampled_cuts; ++s)
+      samples.push_back(cuts[s * cuts.size() / n_sampled_cuts]);
     return true;
   }
 

@@ -21,7 +21,7 @@ namespace taut
     constexpr double few_numbers = 4e6;
 
     /// Number of columns that estimate the length of all.
-    constexpr std::size_t n_samples = 16;
+    constexpr std::size_t n_sampled_columns = 16;
 
     /// Numbers beside an assembled F, and the number of DoFs, on all ranks.
     std::vector<double> stored_numbers(const FactoredStructure &solvers,
@@ -29,7 +29,8 @@ namespace taut
     {
       WindowedVector column;
       double sum = 0.;
-      const std::size_t n_fixed = constraints.fixed_rows().size(), n = std::min(n_samples, n_fixed);
+      const std::size_t n_fixed = constraints.fixed_rows().size(),
+                        n = std::min(n_sampled_columns, n_fixed);
       for (std::size_t s = 0; s < n; ++s)
         for (const auto &[k, form, of] : constraints[s * n_fixed / n].terms)
         {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "entry_path.h"
+
 #include <taut/base/about_entry.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/scene/entries.h>
@@ -11,11 +13,6 @@ namespace taut
 {
   namespace
   {
-    std::string path(const std::string &origin, const std::string &entry)
-    {
-      return origin.empty() ? "" : origin + "/" + entry;
-    }
-
     LinearForm displacement(const Substructure &body, const Attachment &at,
                             const Coordinates &direction)
     {
@@ -158,7 +155,7 @@ namespace taut
       if (load.target.kind != Attachment::Kind::body || load.target.index != body)
         continue;
       const LinearForm form =
-          about_entry(path(load.origin, "On"),
+          about_entry(entry_path(load.origin, "On"),
                       [&]
                       {
                         return part_at(body, load.target.place) == part
@@ -182,7 +179,7 @@ namespace taut
                            const std::string &origin, const std::string &entry)
     {
       if (end.kind == Attachment::Kind::body)
-        about_entry(path(origin, entry),
+        about_entry(entry_path(origin, entry),
                     [&]
                     {
                       const std::size_t k = index_at(end.index, end.place);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "entry_path.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/cable/cable.h>
@@ -19,11 +21,6 @@ namespace taut
   namespace
   {
     const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
-
-    std::string path(const std::string &origin, const std::string &entry)
-    {
-      return origin.empty() ? "" : origin + "/" + entry;
-    }
 
     /// The directions that a link acts along, whatever the motion.
     std::vector<Coordinates> directions(const Link &link)
@@ -103,7 +100,7 @@ namespace taut
         continue;
       const Attachment &end = is_from ? link.from : link.to;
       if (from == 0. && to == 0.)
-        throw EntryError(path(link.origin, is_from ? "From" : "To"),
+        throw EntryError(entry_path(link.origin, is_from ? "From" : "To"),
                          "link '" + link.name + "': it acts at " + at_held_end(scene, end) +
                              ", and its other end does not move either: it has no effect. Let "
                              "Held ends of the cable leave that end free, or remove the link");
@@ -111,7 +108,7 @@ namespace taut
     }
     for (const Load &load : scene.loads)
       if (is_on_cable(scene, load.target) && *of_end++ == 0.)
-        throw EntryError(path(load.origin, "On"),
+        throw EntryError(entry_path(load.origin, "On"),
                          "load '" + load.name + "': it acts at " + at_held_end(scene, load.target) +
                              ", which takes it: it has no effect. Let Held ends of the cable leave "
                              "that end free, or move the load");
@@ -265,7 +262,7 @@ namespace taut
       if (distance <= (closes ? places.most : places.rounding))
         continue;
       throw EntryError(
-          path(link.origin, "To"),
+          entry_path(link.origin, "To"),
           to_text("link '", link.name, "' is of a ball joint, whose places are ", distance,
                   " m apart before anything moves: From is at ", places.from, ", To at ", places.to,
                   ". Bring them together",

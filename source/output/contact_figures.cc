@@ -10,7 +10,7 @@ namespace taut
   namespace
   {
     /// Samples in a period of the upper frequency of a band.
-    constexpr double least_samples = 4.;
+    constexpr double samples_in_band = 4.;
   } // namespace
 
   std::vector<std::size_t> lengths_of_losses(const std::vector<double> &force)
@@ -54,7 +54,7 @@ namespace taut
     const PowerSpectrum spectrum = power_spectrum(force, step);
     for (Band &band : result.bands)
     {
-      band.is_resolved = !spectrum.density.empty() && least_samples * band.to * step < 1.;
+      band.is_resolved = !spectrum.density.empty() && samples_in_band * band.to * step < 1.;
       if (band.is_resolved)
         band.deviation = spectrum.deviation(band.from, band.to);
     }

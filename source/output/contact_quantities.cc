@@ -12,7 +12,7 @@ namespace taut
   namespace
   {
     /// Samples in a period that the filter needs.
-    constexpr double least_samples = 4.;
+    constexpr double samples_in_filter = 4.;
 
     /// Shortest step between increasing times; 0 for equal steps [s].
     double shortest_of_unequal_steps(const std::vector<double> &times)
@@ -127,7 +127,7 @@ namespace taut
     if (step > 0. && raw.size() > 1)
       result.speed = std::fabs(result.end - result.begin) / (step * (raw.size() - 1));
     if (parameters.filter_frequency > 0.)
-      result.longest_step = 1. / (least_samples * parameters.filter_frequency);
+      result.longest_step = 1. / (samples_in_filter * parameters.filter_frequency);
     if (step > 0. && step < result.longest_step)
     {
       result.filtered =

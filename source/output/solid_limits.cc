@@ -27,7 +27,7 @@ namespace taut
     constexpr double small_locking = .05;
 
     /// Strains of a body that moves as a whole, over its turn.
-    constexpr double rounding = 1e-10;
+    constexpr double rounding_of_turn = 1e-10;
 
     /// Growth of a stretch or turn after which strains are looked at again.
     constexpr double growth = 1.1;
@@ -253,7 +253,7 @@ namespace taut
       const Straining &most = bodies[b].most;
       if (most.large > strained_part * most.energy)
         keep(strain, most.strain, small_strain, bodies[b].time, b, 0);
-      if (most.strain > rounding * std::max(small_strain, bodies[b].turn))
+      if (most.strain > rounding_of_turn * std::max(small_strain, bodies[b].turn))
         keep(locking, most.locked / (most.energy - most.locked), small_locking, bodies[b].time, b,
              0);
     }

@@ -15,8 +15,8 @@ namespace taut
 
   namespace
   {
-    constexpr double rounding = 1e-6;    ///< of places of masts [m]
-    constexpr unsigned int n_places = 4; ///< in an element
+    constexpr double rounding_of_masts = 1e-6; ///< of their places [m]
+    constexpr unsigned int n_places = 4;       ///< in an element
 
     /// Places of the transverse supports of a wire, on it [m].
     std::vector<double> supports_of(const Scene &scene, const std::size_t wire)
@@ -43,19 +43,20 @@ namespace taut
         {
           const Coordinates way = add_scaled(scene.wires[other].at(s), -1., own.a);
           const double place = dot(way, own.tangent());
-          if (place > -rounding && place < own.length() + rounding)
+          if (place > -rounding_of_masts && place < own.length() + rounding_of_masts)
             places.push_back(std::clamp(place, 0., own.length()));
         }
       std::sort(places.begin(), places.end());
       places.erase(std::unique(places.begin(), places.end(),
-                               [](const double a, const double b) { return b - a < rounding; }),
+                               [](const double a, const double b)
+                               { return b - a < rounding_of_masts; }),
                    places.end());
       return places;
     }
 
     bool is_in(const Span &span, const double place)
     {
-      return place >= span.from - rounding && place < span.to - rounding;
+      return place >= span.from - rounding_of_masts && place < span.to - rounding_of_masts;
     }
   } // namespace
 

@@ -14,8 +14,8 @@ namespace taut
   namespace
   {
     /// Newton's method for D ends where the relative error of the integrals is below this.
-    constexpr double converged = 1e-14;
-    constexpr unsigned int most_iterations = 30;
+    constexpr double converged_integrals = 1e-14;
+    constexpr unsigned int most_newton_iterations = 30;
 
     /// Smallest entry of D: a node must keep a part of its mass.
     constexpr double smallest_factor = .1;
@@ -186,11 +186,11 @@ namespace taut
       for (std::size_t i = 0; i < D.size(); ++i)
         if (layer[i] == 0)
           D[i] = 0.;
-      for (unsigned int iteration = 0; iteration < most_iterations; ++iteration)
+      for (unsigned int iteration = 0; iteration < most_newton_iterations; ++iteration)
       {
         dealii::Vector<double> residual(n), step(n);
         dealii::FullMatrix<double> J(n, n);
-        if (integrals.linearise(D, residual, J) <= converged)
+        if (integrals.linearise(D, residual, J) <= converged_integrals)
           return D;
         try
         {
@@ -213,7 +213,7 @@ namespace taut
             return {};
         }
         // The error is rounding.
-        if (iteration > 0 && largest_step <= converged)
+        if (iteration > 0 && largest_step <= converged_integrals)
           return D;
       }
       return {};

@@ -12,7 +12,7 @@ namespace taut
   {
     /// Height over the length of a face below which an obstacle does not stand out: the strain that
     /// makes room for it.
-    constexpr double flat = 1e-4;
+    constexpr double least_height = 1e-4;
 
     /// Parts of a face along each direction, on a line and in space, between which heights are
     /// taken: a bump of one part is seen.
@@ -43,7 +43,7 @@ namespace taut
       p.face = box.diagonal() / (is_line ? 1. : std::sqrt(2.));
       // Heights of the obstacle above what nodes see.
       std::vector<double> heights;
-      double largest = flat * p.face;
+      double largest = least_height * p.face;
       const unsigned int n = is_line ? parts_of_line : parts_of_face;
       for (unsigned int i = 0; i <= n; ++i)
         for (unsigned int j = 0; j <= (is_line ? 0 : form == FaceForm::triangle ? n - i : n); ++j)

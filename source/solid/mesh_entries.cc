@@ -59,7 +59,7 @@ namespace taut
 
     /// Sine of the angle between the edges of a corner, or its like in space, below which a cell is
     /// flat there.
-    constexpr double flat = 1e-8;
+    constexpr double flat_corner = 1e-8;
 
     /// The smallest determinant of the edges at a corner of a cell, over their lengths: 1 for a
     /// box, 0 for a flat corner, negative for a corner that is turned inside out.
@@ -108,7 +108,7 @@ namespace taut
         const auto [known, is_new] =
             by_corners.emplace(boost::hash_range(places.begin(), places.end()), cell);
         const char *const what =
-            !(smallest_corner(cell) > flat) ? "is flat or turned inside out at a corner"
+            !(smallest_corner(cell) > flat_corner) ? "is flat or turned inside out at a corner"
             : !is_new && corners(known->second) == places
                 ? "is given twice, and would be twice as stiff (gmsh writes a cell for each "
                   "physical group that it is in)"

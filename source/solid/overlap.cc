@@ -28,7 +28,10 @@ namespace taut
         box.add(geometry.point(node));
       return .5 * box.diagonal();
     }
+  } // namespace
 
+  struct Overlap::Boundaries
+  {
     /// All of the boundary of a body.
     struct Boundary
     {
@@ -90,10 +93,7 @@ namespace taut
       const SurfaceGeometry geometry;
       const FaceSearch search;
     };
-  } // namespace
 
-  struct Overlap::Boundaries
-  {
     Boundaries(const SurfaceGeometry &s, const SurfaceGeometry &m, const WholeBoundaries &whole)
         : slave(whole.slave ? *whole.slave : s.surface()),
           master(whole.master ? *whole.master : m.surface()), points(m), search(m)

@@ -19,7 +19,7 @@ namespace taut
     constexpr double decayed = 1e-6;
 
     /// Part of the motion of whole bodies that counts in the scale of a constraint.
-    constexpr double rest = 1e-3;
+    constexpr double part_of_whole_motion = 1e-3;
   } // namespace
 
   /// Sets gaps from increments of the displacements, not from F N + d.
@@ -69,7 +69,8 @@ namespace taut
     structure.communicator().sum(&sum, 1);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       problem.gap_scale[i] +=
-          rest * std::sqrt(std::max(0., sum * (F.diagonal(i) - link_springs.compliance()[i])));
+          part_of_whole_motion *
+          std::sqrt(std::max(0., sum * (F.diagonal(i) - link_springs.compliance()[i])));
   }
 
   /// Adds, at rest, motions of what each DoF is tied to, sum_j |K_ij| |U_j| / K_ii: slopes of a
@@ -101,7 +102,7 @@ namespace taut
       // Conditions inside of a body tie its directions to each other.
       if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
         for (double &term : terms[k])
-          term += rest * largest;
+          term += part_of_whole_motion * largest;
     }
     std::vector<double> size(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)

@@ -12,7 +12,7 @@ namespace taut
   {
     /// Part of the largest terms of a gap so far below which terms count as rest: motion that
     /// contacts stopped leaves rounding, which contradicts itself between constraints.
-    constexpr double rest = 1e-3;
+    constexpr double part_of_largest = 1e-3;
 
     /// What the gap of a constraint rounds with. Gaps of surfaces are differences of coordinates
     /// that are far larger, but exact.
@@ -83,7 +83,7 @@ namespace taut
     scale += motion_size[i];
     scale += std::fabs(motion[i]) + other;
     scale_of_step[i] = scale;
-    return std::max(scale, rest * largest_scale[i]);
+    return std::max(scale, part_of_largest * largest_scale[i]);
   }
 
   void GapTracker::measure(const State &state)
@@ -165,7 +165,8 @@ namespace taut
   {
     const std::vector<double> terms = body_terms(U), moved = constraints.motions(U);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      largest_scale[i] = std::max(
-          largest_scale[i], terms[i] + (size_of_gap(constraints[i]) + std::fabs(moved[i])) / rest);
+      largest_scale[i] = std::max(largest_scale[i],
+                                  terms[i] + (size_of_gap(constraints[i]) + std::fabs(moved[i])) /
+                                                 part_of_largest);
   }
 } // namespace taut

@@ -9,7 +9,7 @@ namespace taut
   {
     /// Balance above which a step is refined, and most repetitions: normal steps are below 1e-11.
     constexpr double refined_balance = 1e-10;
-    constexpr int most_refinements = 3;
+    constexpr int most_repetitions = 3;
 
     /// Most coefficients whose factors are kept, and most DoFs of all of them together: a step that
     /// is halved and doubled again goes between two to four lengths. Factors of solids take some kB
@@ -182,7 +182,7 @@ namespace taut
   void Step::certify(State &state, Certificate &certificate)
   {
     for (int refinements = 0;
-         certificate.balance > refined_balance && refinements < most_refinements && refine(state);
+         certificate.balance > refined_balance && refinements < most_repetitions && refine(state);
          ++refinements)
       measure_balance(state, certificate);
     certificate.worst_body = own_balance.worst_body();

@@ -5,6 +5,7 @@ compiled."""
 import argparse
 import json
 import pathlib
+import re
 import shlex
 import sys
 
@@ -18,13 +19,22 @@ parser.add_argument("--sanitize", default="", help="sanitizers, separated by com
 parser.add_argument("--own", default="", help="CMAKE_CXX_FLAGS: what the user asked for")
 arguments = parser.parse_args()
 
+
+def sources(file):
+    """The file, or those of a batch."""
+    if file.parent.name != "Unity":
+        return [file]
+    return [pathlib.Path(included) for included in re.findall(r'^#include "(.*)"$', file.read_text(), re.MULTILINE)]
+
+
 own = shlex.split(arguments.own)
 errors, compiled = [], set()
 for entry in json.loads((arguments.build / "compile_commands.json").read_text()):
     file = pathlib.Path(entry["file"])
-    if arguments.root not in file.parents or arguments.build in file.parents:
+    own_files = [f for f in sources(file) if arguments.root in f.parents and arguments.build not in f.parents]
+    if not own_files:
         continue
-    compiled.add(file)
+    compiled.update(own_files)
     flags = shlex.split(entry["command"])
 
     def require(condition, what):

@@ -16,7 +16,7 @@ parser.add_argument("--build", type=pathlib.Path, required=True)
 arguments = parser.parse_args()
 
 for entry in json.loads((arguments.build / "compile_commands.json").read_text()):
-    if pathlib.Path(entry["file"]).parent.parent == arguments.root / "source":
+    if "CMakeFiles/taut.dir/" in entry["command"]:
         break
 else:
     sys.exit("no file of the library in compile_commands.json")
