@@ -195,11 +195,11 @@ namespace taut
     return result;
   }
 
-  /// The record with equal steps, low-passed as quantities() are.
+  /// The record with equal steps, low-passed as in measure().
   ContactRecord Statistics::judged(const Contact &contact) const
   {
     ContactRecord record = sum(contact).at_equal_steps(times);
-    if (quantities(contact).is_filtered)
+    if (measure(contact).is_filtered)
       record.force = record.mean_force =
           low_pass(record.force, (times.back() - times.front()) / (record.force.size() - 1),
                    parameters.filter_frequency);
@@ -211,23 +211,23 @@ namespace taut
     return ContactFigures::of(sum(contact), times, parameters);
   }
 
-  ContactQuantities Statistics::quantities(const Contact &contact) const
+  ContactQuantities Statistics::measure(const Contact &contact) const
   {
     return ContactQuantities::of(sum(contact), times, parameters);
   }
 
-  ContactQuantities Statistics::quantities(const Contact &contact, ContactRecord wire) const
+  ContactQuantities Statistics::measure(const Contact &contact, ContactRecord wire) const
   {
     add_places(contact, wire);
     return ContactQuantities::of(wire, times, parameters);
   }
 
-  ContactQuantities Statistics::quantities(const ContactSum &sum) const
+  ContactQuantities Statistics::measure(const ContactSum &sum) const
   {
     std::vector<ContactRecord> records;
     for (const ContactSum::Part &part : sum.parts)
       records.push_back(contacts[part.contact].wires[part.wire]);
-    return quantities(contacts[sum.parts[0].contact], sum_of(records));
+    return measure(contacts[sum.parts[0].contact], sum_of(records));
   }
 
   std::vector<std::size_t> Statistics::links_of_sum(const std::string &name) const
@@ -262,7 +262,7 @@ namespace taut
 
   std::vector<Statistics::NamedQuantity> Statistics::named(const ContactSum &sum) const
   {
-    const ContactQuantities f = quantities(sum);
+    const ContactQuantities f = measure(sum);
     return {{sum.name, "mean", f.filtered.mean, "N"},
             {sum.name, "standard deviation", f.filtered.deviation, "N"},
             {sum.name, "maximum", f.filtered.maximum, "N"},
@@ -293,7 +293,7 @@ namespace taut
     std::vector<NamedQuantity> list;
     for (const Contact &contact : contacts)
     {
-      const ContactQuantities f = quantities(contact);
+      const ContactQuantities f = measure(contact);
       const Moments &m = f.filtered;
       const double over_mean = m.mean > 0. ? m.deviation / m.mean : 0.;
       list.insert(list.end(), {{contact.of.name, "mean", m.mean, "N"},
@@ -306,7 +306,7 @@ namespace taut
       list.insert(list.end(), others.begin(), others.end());
       for (std::size_t i = 0; contact.of.is_strip && i < contact.wires.size(); ++i)
       {
-        const ContactQuantities share = quantities(contact, contact.wires[i]);
+        const ContactQuantities share = measure(contact, contact.wires[i]);
         list.push_back({contact.of.names[i], "mean share", share.raw.mean, "N"});
         list.push_back({contact.of.names[i], "largest share", share.raw.maximum, "N"});
       }

@@ -63,7 +63,7 @@ namespace taut
   public:
     static json of(const Statistics &all, const Contact &contact)
     {
-      const ContactQuantities f = all.quantities(contact);
+      const ContactQuantities f = all.measure(contact);
       json entry = {{"samples", f.n_samples}};
       if (all.parameters.window.size() == 2)
         entry["window"] = {{"value", all.parameters.window},
@@ -94,7 +94,7 @@ namespace taut
 
     static json of(const Statistics &all, const ContactSum &sum)
     {
-      const ContactQuantities f = all.quantities(sum);
+      const ContactQuantities f = all.measure(sum);
       json entry = {{"of", sum.of}, {"samples", f.n_samples}};
       if (f.n_samples == 0)
         return entry;
@@ -202,7 +202,7 @@ namespace taut
       json result = json::object();
       for (std::size_t i = 0; i < contact.wires.size(); ++i)
       {
-        const ContactQuantities f = all.quantities(contact, contact.wires[i]);
+        const ContactQuantities f = all.measure(contact, contact.wires[i]);
         json &entry = result[contact.of.names[i]] = quantities_of(all.table(f, true), false);
         entry["not_touched"] = quantity(100. * f.loss, "%");
       }

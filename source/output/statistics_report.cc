@@ -131,7 +131,7 @@ namespace taut
     };
     for (const Contact &contact : contacts)
     {
-      const ContactQuantities f = quantities(contact);
+      const ContactQuantities f = measure(contact);
       const std::vector<Quantity> rows = table(f, false);
       const bool expected = std::any_of(rows.begin(), rows.end(),
                                         [](const Quantity &r) { return !r.expected.empty(); });
@@ -199,7 +199,7 @@ namespace taut
 
   void Statistics::print_contact(const Contact &contact, std::ostream &out) const
   {
-    const ContactQuantities f = quantities(contact);
+    const ContactQuantities f = measure(contact);
     print_head("'" + contact.of.name + "'", f, out);
     if (f.n_samples == 0)
       return;
@@ -240,7 +240,7 @@ namespace taut
     out << "  Sum over its wires, unfiltered: mean, maximum, time without this wire\n";
     for (std::size_t i = 0; i < contact.wires.size(); ++i)
     {
-      const ContactQuantities f = quantities(contact, contact.wires[i]);
+      const ContactQuantities f = measure(contact, contact.wires[i]);
       out << "    " << std::left << std::setw(34) << contact.of.names[i] << std::right
           << std::setw(10) << shown(f.raw.mean, size) << std::setw(10) << shown(f.raw.maximum, size)
           << " N  " << std::setw(8) << 100. * f.loss << " %\n";
@@ -249,7 +249,7 @@ namespace taut
 
   void Statistics::print_sum(const ContactSum &sum, std::ostream &out) const
   {
-    const ContactQuantities f = quantities(sum);
+    const ContactQuantities f = measure(sum);
     std::string of = "'" + sum.name + "', the sum of";
     for (std::size_t i = 0; i < sum.of.size(); ++i)
       of += (i > 0 ? " + '" : " '") + sum.of[i] + "'";

@@ -54,14 +54,14 @@ namespace taut
     /// @p contact counts the sliding contacts in the order of the scene; a strip is one.
     ContactQuantities contact_quantities(std::size_t contact) const
     {
-      return quantities(contacts[contact]);
+      return measure(contacts[contact]);
     }
 
     /// Force of one of the wires of a strip, at the times when the strip is in the window. Its loss
     /// is the share of the samples in which the wire is not touched.
     ContactQuantities share(std::size_t contact, std::size_t wire) const
     {
-      return quantities(contacts[contact], contacts[contact].wires[wire]);
+      return measure(contacts[contact], contacts[contact].wires[wire]);
     }
 
     /// Links of the scene whose forces a sum adds up; empty: there is no such sum.
@@ -134,9 +134,9 @@ namespace taut
     static void add_places(const Contact &contact, ContactRecord &record);
     ContactRecord sum(const Contact &contact) const;
     ContactRecord judged(const Contact &contact) const;
-    ContactQuantities quantities(const Contact &contact) const;
-    ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
-    ContactQuantities quantities(const ContactSum &sum) const;
+    ContactQuantities measure(const Contact &contact) const;
+    ContactQuantities measure(const Contact &contact, ContactRecord wire) const;
+    ContactQuantities measure(const ContactSum &sum) const;
 
     /// What the file and named_quantities() have of an item.
     std::vector<NamedQuantity> named_figures(const Contact &contact) const;
