@@ -143,7 +143,8 @@ def check_killed(folder, n, ranks, scenes, rng):
                 break
             n_kills += 1
             options = [*scene, "--resume"]
-        (own / "results" / "checkpoint.some_machine.1.tmp").write_bytes(b"what a killed run was about to rename")
+        if (own / "results").exists():  # else killed before it began
+            (own / "results" / "checkpoint.some_machine.1.tmp").write_bytes(b"what a killed run was about to rename")
         result = run(own, [*scene, "--resume"], ranks)
         what = f"{scene[0]} on {ranks} ranks, run {i}"
         expect(f"{what}: resumes", result.returncode == 0, result.stderr)
