@@ -15,7 +15,7 @@ namespace taut
     /// Length of the elements of ANCF at a kink, over the mean length: a force then stiffens the
     /// cable over this length only. The sag of a straight cable with ten elements and a load in the
     /// middle lacks 0.08 %, without such elements 2.7 %. Elements of half the length halve what it
-    /// lacks, and a slack cable in motion then takes a third more iterations a step.
+    /// lacks, and a slack cable in motion then takes a fifth to a half more iterations a step.
     constexpr double part_of_kink = 1. / 32.;
 
     /// Length of the elements beside a place [m]; 0: none. A cable of ANCF that bends does so over
