@@ -15,7 +15,7 @@ namespace taut
   {
     const bool is_start = step.state.last_step == 0.;
     if (accuracy && !is_start)
-      accuracy->record(step.state);
+      accuracy->record(step.state, step.report);
   }
 
   void AccuracyReport::save(OutputArchive &archive)

@@ -13,7 +13,7 @@ namespace taut
   {
     bool is_mean(const StepView &step, const std::size_t i)
     {
-      return !step.state.is_mean.empty() && step.state.is_mean[i];
+      return step.report.is_mean(i);
     }
   } // namespace
 
@@ -134,7 +134,7 @@ namespace taut
   void Energy::add_work(const StepView &step, const std::size_t k, Balance &share)
   {
     const State &state = step.state;
-    const StepCoefficients &c = step.scheme;
+    const StepCoefficients &c = step.report.method.c;
     const Substructure &body = step.structure[k];
     const std::size_t n = body.n_dofs();
     a.resize(n);
@@ -144,7 +144,7 @@ namespace taut
     body.mass().vmult_add(1., a.data(), product.data());
     const std::vector<double> &dU = state.dU[k];
     damping = CV[k];
-    if (c.velocity_projection)
+    if (step.report.method.corrects_velocities)
     {
       // The equation of motion holds for the velocities before their projection.
       for (std::size_t i = 0; i < n; ++i)
@@ -197,8 +197,8 @@ namespace taut
       const double before = N0[i] * evaluate(terms0[k++], state.dU);
       if (!is_mean(step, i))
         share.contacts += .5 * (before + now);
-      else if (step.constraints.slides(i) && step.scheme.velocity_projection)
-        share.contacts += step.scheme.alpha_f * before;
+      else if (step.constraints.slides(i) && step.report.method.rules[i].corrected)
+        share.contacts += step.report.method.c.alpha_f * before;
     }
   }
 
@@ -218,7 +218,7 @@ namespace taut
         const double damper = constraint.spring.damping * spring.du * spring.du / state.last_step;
         if (std::isfinite(damper))
           total.link_dampers += damper;
-        total.contacts += state.constraint_work[i];
+        total.contacts += step.report.work[i];
         if (!constraint.spring.is_rigid())
           total.contacts +=
               constraint.spring.energy(spring.u) - constraint.spring.energy(springs0[i].u) + damper;
@@ -270,7 +270,7 @@ namespace taut
     double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
                      share.contacts, share.damping, share.algorithmic};
     step.structure.communicator().sum(sums, 7);
-    total.algorithmic += sums[6] - (sums[0] - total.kinetic) + step.state.impulse_work;
+    total.algorithmic += sums[6] - (sums[0] - total.kinetic) + step.report.impulse_work;
     total.kinetic = sums[0];
     total.strain = sums[1];
     total.loads += sums[2];

@@ -96,7 +96,7 @@ namespace taut
     const State &state = step.state;
     const bool is_start = !is_running;
     is_running = true;
-    if (!is_start && !(step.scheme.restitution > 0.))
+    if (!is_start && !(step.report.method.c.restitution > 0.))
       return;
     if (!is_start)
     {

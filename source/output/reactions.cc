@@ -85,11 +85,12 @@ namespace taut
   /// The balance of a state has all forces of constraints but mean forces. With a velocity
   /// projection it has mean forces of sliding constraints, too.
   void Reactions::update(const Reference &reference, const State &state,
-                         const Constraints &constraints, const StepCoefficients &scheme)
+                         const Constraints &constraints, const StepReport &report)
   {
     set_forces(reference, state);
-    for (std::size_t i = 0; i < state.is_mean.size(); ++i)
-      if (state.is_mean[i] && !(constraints.slides(i) && scheme.velocity_projection))
+    for (std::size_t i = 0; i < report.method.rules.size(); ++i)
+      if (const RowRule &rule = report.method.rules[i];
+          rule.is_mean() && !(rule.corrected && constraints.slides(i)))
         subtract(constraints[i], state.multiplier[i]);
     structure.communicator().sum(values);
   }

@@ -186,7 +186,7 @@ namespace taut
   /// State with the stored vectors of the bodies of this rank.
   State Checkpoints::restored_state() const
   {
-    SteppedMotion &motion = run->stepped();
+    Motion &motion = run->stepped();
     const Structure &bodies = motion.bodies();
     const std::size_t n_bodies = bodies.all_bodies().size();
     if (found->bodies.size() != n_bodies)

@@ -19,7 +19,7 @@ namespace taut
       own_scene->bodies.push_back({body.name, "", "", nullptr});
   }
 
-  ObservedRun::ObservedRun(SteppedMotion &motion, const Scene &scene, const SceneBodies &structure,
+  ObservedRun::ObservedRun(Motion &motion, const Scene &scene, const SceneBodies &structure,
                            const std::string &folder, const double interval)
       : motion(motion), named(scene), bodies(structure), folder(folder), interval(interval),
         reactions(scene, structure)
@@ -149,7 +149,7 @@ namespace taut
                       " observers and this run " + std::to_string(observers.size()) +
                       ": resume with the same program");
     update_probes(motion.state());
-    reactions.update(motion.reference(), motion.state(), motion.links(), motion.coefficients());
+    reactions.update(motion.reference(), motion.state(), motion.links(), motion.report());
     const StepView step = view(motion.state());
     std::size_t i = 0;
     each(
@@ -166,7 +166,7 @@ namespace taut
             motion.reference(),
             state,
             motion.certificate(),
-            motion.coefficients(),
+            motion.report(),
             motion.measures(),
             probe_values,
             reactions.forces(),
@@ -177,7 +177,7 @@ namespace taut
   {
     update_probes(state);
     if (motion.has_moved())
-      reactions.update(motion.reference(), state, motion.links(), motion.coefficients());
+      reactions.update(motion.reference(), state, motion.links(), motion.report());
     const StepView step = view(state);
     each([&](Observer &observer) { observer.record(step); });
   }
@@ -230,7 +230,6 @@ namespace taut
 
   void ObservedRun::print_cost(std::ostream &log) const
   {
-    const TimeStepper &stepper = motion.time_stepper();
     const StepCosts::Sums &costs = motion.costs().sums();
     const double n_steps = static_cast<double>(costs.n_steps), seconds = costs.stepping,
                  simulated = time() - first_time;
@@ -238,10 +237,10 @@ namespace taut
     log << costs.n_steps << " steps in " << all << " s, " << simulated / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
         << simulated / seconds << " x real time\n";
-    if (!stepper.is_linear())
-      log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
+    if (!motion.is_linear())
+      log << "Newton's method: " << static_cast<double>(motion.n_newton_iterations()) / n_steps
           << " solves a step\n";
-    const InterfaceStatistics solves = stepper.interface_statistics();
+    const InterfaceStatistics solves = motion.interface_statistics();
     if (solves.n_systems > 0)
       log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
           << " iterations a system, " << static_cast<double>(solves.n_systems) / n_steps

@@ -80,7 +80,7 @@ namespace taut
     if (has_time())
       choose_scheme();
     if (has_time() && links.size() > 0)
-      log << "Interface operator: " << motion->time_stepper().interface_description() << '\n';
+      log << "Interface operator: " << motion->interface_description() << '\n';
     accuracy = std::make_unique<AccuracyReport>(motion->measures(), step_accuracy());
     stop_before_start();
     prepare_results(checkpoints.is_found());
@@ -271,7 +271,7 @@ namespace taut
     while (!observed->is_over())
       observed->advance();
     if (has_time() && motion->start().repeated_joints.empty())
-      report_repeated_joints(links.names(motion->time_stepper().repeated_joints()));
+      report_repeated_joints(links.names(motion->repeated_joints()));
     if (motion->n_repeated() > 0)
       log << motion->n_repeated() << " steps were repeated with a shorter one\n";
     if (observed->signal() == 0)

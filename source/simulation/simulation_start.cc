@@ -156,7 +156,7 @@ namespace taut
 
   void Simulation::find_start()
   {
-    motion = std::make_unique<SteppedMotion>(bodies, links, stepper_options());
+    motion = std::make_unique<Motion>(bodies, links, stepper_options());
     report_linearised();
     const InitialState &start = motion->start();
     if (model.start == Start::equilibrium)

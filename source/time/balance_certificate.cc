@@ -73,9 +73,9 @@ namespace taut
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                                         const Reference &reference,
+                                         const Reference &reference, const StepMethod &method,
                                          const NonlinearBodies &nonlinear)
-      : structure(structure), constraints(constraints), nonlinear(nonlinear),
+      : structure(structure), constraints(constraints), method(method), nonlinear(nonlinear),
         impulses(structure.zero())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -90,8 +90,7 @@ namespace taut
     damping.resize(inertia.size());
   }
 
-  void BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
-                                   const std::vector<double> &in_balance,
+  void BalanceCertificate::measure(const StepForces &forces, const std::vector<double> &in_balance,
                                    const std::vector<double> &impulsive, State &state,
                                    const SetRows &set_rows)
   {
@@ -113,8 +112,8 @@ namespace taut
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      const Sizes sizes = measure_body(k, c, forces, has_impulses, state, set_rows);
-      const double relative = relative_residual(k, c, forces, sizes, state.time);
+      const Sizes sizes = measure_body(k, forces, has_impulses, state, set_rows);
+      const double relative = relative_residual(k, forces, sizes, state.time);
       if (!(relative <= largest_residual) && !std::isnan(largest_residual))
       {
         largest_residual = relative;
@@ -124,11 +123,11 @@ namespace taut
   }
 
   BalanceCertificate::Sizes BalanceCertificate::measure_body(const std::size_t k,
-                                                             const StepCoefficients &c,
                                                              const StepForces &forces,
                                                              const bool has_impulses, State &state,
                                                              const SetRows &set_rows)
   {
+    const StepCoefficients &c = method.c;
     const double kappa = c.old_balance();
     const bool has_old_inertia = c.old_inertia() != 0.;
     const Substructure &body = structure[k];
@@ -137,7 +136,7 @@ namespace taut
     {
       if (set_rows)
         set_rows(k, 0, body.n_dofs());
-      nonlinear.set_end_force(k, c, state);
+      nonlinear.set_end_force(k, state);
     }
     const double *r0 = forces.old_balance[k].data(), *mass_A = state.A[k].data();
     if (has_old_inertia)
@@ -166,7 +165,7 @@ namespace taut
       if (has_impulses)
         for (std::size_t i = 0; i < size; ++i)
           residual[i] -= impulses[k][begin + i];
-      if (c.mean_force)
+      if (method.has_means())
         work_of_balance[k] += (1. - c.alpha_f) * work_of(state.dU[k].data() + begin, r + begin,
                                                          r0 + begin, kappa, size);
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
@@ -181,10 +180,10 @@ namespace taut
     return {found[0], found[1], found[2], found[3]};
   }
 
-  double BalanceCertificate::relative_residual(const std::size_t k, const StepCoefficients &c,
-                                               const StepForces &forces, const Sizes &sizes,
-                                               const double time)
+  double BalanceCertificate::relative_residual(const std::size_t k, const StepForces &forces,
+                                               const Sizes &sizes, const double time)
   {
+    const StepCoefficients &c = method.c;
     // P and B N may cancel each other and the forces of the reference: each counts.
     PerKind force = forces.external_size[k];
     for (int kind = 0; kind < 2; ++kind)
@@ -211,7 +210,7 @@ namespace taut
       if (sizes.residual[kind] > rounding_of_increment * (size + of_increment[kind]))
         may_be_cancellation = false;
       // There is no refinement with mean forces.
-      if (c.mean_force)
+      if (method.has_means())
         size += of_increment[kind];
       // Numbers close to underflow have few digits.
       const double relative =

@@ -172,7 +172,9 @@ namespace taut
     check_stability(integrator, structure, constraints, parameters, step);
     const StepCoefficients c = integrator.coefficients(step);
     const std::vector<char> without_mass = constraints.without_mass();
-    for (std::size_t i = 0; c.velocity_level && i < constraints.size(); ++i)
+    const bool has_means = integrator.internal_forces() == ForceTime::mean;
+    for (std::size_t i = 0;
+         integrator.rule(RowTraits()).is_on_velocity() && i < constraints.size(); ++i)
     {
       if (without_mass[i] && c.alpha_f == .5)
         throw EntryError("Time/Mass redistribution",
@@ -186,7 +188,7 @@ namespace taut
                          "here of '" +
                              constraints[i].name + "'; take 'gaps then velocities'" + anyway);
     }
-    if (c.mean_force || !c.rings())
+    if (has_means || !c.rings())
       return;
     const std::string nonlinear = nonlinear_body(structure);
     if (!nonlinear.empty())
@@ -212,9 +214,9 @@ namespace taut
                 anyway));
   }
 
-  void check_mass(const TimeIntegrator &integrator, const Structure &structure, const double step)
+  void check_mass(const TimeIntegrator &integrator, const Structure &structure)
   {
-    if (!integrator.coefficients(step).velocity_projection)
+    if (!integrator.rule(RowTraits()).corrected)
       return;
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty())

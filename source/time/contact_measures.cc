@@ -113,7 +113,8 @@ namespace taut
     return highest;
   }
 
-  void ContactMeasures::record(const State &state, const StepCoefficients &c, const BodyVectors &P)
+  void ContactMeasures::record(const State &state, const StepReport &report,
+                               const BodyVectors &P)
   {
     ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -122,24 +123,21 @@ namespace taut
         continue;
       add_wire_end(i, state);
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
-      add_gap(i, state, c);
+      add_gap(i, state, report);
     }
-    energies.record(state, c);
-    add_gains(state, c);
+    energies.record(state, report);
+    add_gains(report);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
       energies.measure_scale(state, P);
   }
 
   /// Without a unilateral constraint, no contact can have caused a gain.
-  void ContactMeasures::add_gains(const State &state, const StepCoefficients &c)
+  void ContactMeasures::add_gains(const StepReport &report)
   {
-    if (state.energy_gains.empty())
-      return;
-    const bool of_contacts = c.mean_force && !c.velocity_level;
-    for (std::size_t g = 0; g < contact_gains.size(); ++g)
+    for (std::size_t g = 0; g < report.gains.size(); ++g)
     {
-      const double gain = std::max(0., state.energy_gains[g]);
-      if (of_contacts && first_one_sided[g] != no_link)
+      const double gain = std::max(0., report.gains[g]);
+      if (first_one_sided[g] != no_link && report.method.has_means())
         contact_gains[g] += gain;
       if (moves_far[g])
         motion_gains[g] += gain;
@@ -216,7 +214,8 @@ namespace taut
     force.mean_peak = std::max(force.mean_peak, force.mean);
   }
 
-  void ContactMeasures::add_gap(const std::size_t i, const State &state, const StepCoefficients &c)
+  void ContactMeasures::add_gap(const std::size_t i, const State &state,
+                                const StepReport &report)
   {
     if (!constraints[i].spring.is_rigid())
       return;
@@ -228,7 +227,7 @@ namespace taut
     }
     // A condition on velocities leaves a gap of about the motion of a step.
     Force &force = forces[i];
-    if (c.velocity_level)
+    if (report.method.rules[i].is_on_velocity())
       force.motion = std::max(force.motion, state.last_step * std::fabs(state.gap_rate[i]));
     force.gap = std::max(force.gap, gap);
   }

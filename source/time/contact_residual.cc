@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Residuals of the conditions on the constraints, for the certificate.
 #include <taut/substructure/constrained_body.h>
-#include <taut/time/contact_conditions.h>
+#include <taut/time/contact_residual.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
@@ -22,40 +21,25 @@ namespace taut
     constexpr double part_of_whole_motion = 1e-3;
   } // namespace
 
-  /// Sets gaps from increments of the displacements, not from F N + d.
-  void ContactConditions::set_recomputed_gaps(const State &state)
-  {
-    recomputed.at.multiplier = solved.multiplier;
-    recomputed.at.mode_amplitude = solved.mode_amplitude;
-    recomputed.at.gap = state.gap;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (link_springs.is_mean(i))
-      {
-        const double N = solved.multiplier[i], u = link_springs.compression(i, N);
-        recomputed.at.gap[i] = state.geometric_gap[i] + u + link_springs.lack(i, u, N);
-      }
-      else if (on_velocities(i))
-      {
-        const double rebound =
-            constraints[i].cone.restitution(c.restitution) * gap_rates.before_step()[i];
-        recomputed.at.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);
-      }
-  }
-
-  void ContactConditions::add_decayed_columns(const ComplementarityOperator &F)
+  void ContactResidual::add_decayed_columns(const std::vector<double> &increments,
+                                            const std::vector<double> &N,
+                                            const ComplementarityOperator &F,
+                                            std::vector<double> &scale) const
   {
     PerKind most = {0., 0.};
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      most[constraints[i].rotational] = std::max(
-          most[constraints[i].rotational],
-          std::fabs(gap_tracker.increments()[i]) + F.diagonal(i) * std::fabs(solved.multiplier[i]));
+      most[constraints[i].rotational] =
+          std::max(most[constraints[i].rotational],
+                   std::fabs(increments[i]) + F.diagonal(i) * std::fabs(N[i]));
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      problem.gap_scale[i] += decayed * most[constraints[i].rotational];
+      scale[i] += decayed * most[constraints[i].rotational];
   }
 
   /// Adds motions of whole bodies to the scale of a constraint: slopes of a beam that falls without
   /// bending are only rounding. |b . dU|^2 <= (b . A^-1 b) (dU . A dU).
-  void ContactConditions::add_inertial_terms(const State &state, const ComplementarityOperator &F)
+  void ContactResidual::add_inertial_terms(const StepCoefficients &c, const std::vector<double> &S,
+                                           const State &state, const ComplementarityOperator &F,
+                                           std::vector<double> &scale) const
   {
     double sum = 0.;
     std::vector<double> product;
@@ -68,15 +52,15 @@ namespace taut
     }
     structure.communicator().sum(&sum, 1);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      problem.gap_scale[i] +=
-          part_of_whole_motion *
-          std::sqrt(std::max(0., sum * (F.diagonal(i) - link_springs.compliance()[i])));
+      scale[i] +=
+          part_of_whole_motion * std::sqrt(std::max(0., sum * (F.diagonal(i) - S[i])));
   }
 
   /// Adds, at rest, motions of what each DoF is tied to, sum_j |K_ij| |U_j| / K_ii: slopes of a
   /// beam that moves without bending are only rounding. An entry of F is a sum over the bodies,
   /// whose terms may cancel, as slopes on both sides of a cut in a straight wire do.
-  void ContactConditions::add_elastic_terms(const State &state, const FactoredStructure &bodies)
+  void ContactResidual::add_elastic_terms(const State &state, const FactoredStructure &bodies,
+                                          std::vector<double> &scale) const
   {
     BodyVectors terms = structure.zero();
     std::vector<double> diagonal;
@@ -109,44 +93,37 @@ namespace taut
       size[i] = magnitude(constraints[i].terms, terms);
     structure.communicator().sum(size);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      problem.gap_scale[i] += size[i];
+      scale[i] += size[i];
   }
 
-  void ContactConditions::measure_residual(const ComplementarityOperator &F)
+  void ContactResidual::find(const MixedComplementarityProblem &problem,
+                             const MixedComplementaritySolution &at,
+                             const ComplementarityOperator &F)
   {
-    gap_terms(problem, F, solved.multiplier, recomputed.at.mode_amplitude, recomputed.terms);
-    multiplier_weights(problem, F, solved.multiplier, recomputed.terms, recomputed.weights);
-    taut::residual(problem, recomputed.at, recomputed.terms, recomputed.weights, recomputed.found);
+    gap_terms(problem, F, at.multiplier, at.mode_amplitude, terms);
+    multiplier_weights(problem, F, at.multiplier, terms, weights);
+    residual(problem, at, terms, weights, found);
   }
 
-  double ContactConditions::residual(const State &state, StepEquations &system, std::size_t &worst)
+  double ContactResidual::measure(const StepCoefficients &c, MixedComplementarityProblem &problem,
+                                  const MixedComplementaritySolution &at,
+                                  const std::vector<double> &increments,
+                                  const std::vector<double> &S, const State &state,
+                                  StepEquations &system, std::size_t &worst)
   {
-    if (constraints.size() == 0)
-      return 0.;
     const ComplementarityOperator &F = system.interface().matrix();
-    set_recomputed_gaps(state);
     if (!c.is_at_rest())
-      add_decayed_columns(F);
-    measure_residual(F);
-    if (!(recomputed.found.max <= conspicuous))
+      add_decayed_columns(increments, at.multiplier, F, problem.gap_scale);
+    find(problem, at, F);
+    if (!(found.max <= conspicuous))
     {
       if (c.is_at_rest())
-        add_elastic_terms(state, system.bodies());
+        add_elastic_terms(state, system.bodies(), problem.gap_scale);
       else
-        add_inertial_terms(state, F);
-      measure_residual(F);
+        add_inertial_terms(c, S, state, F, problem.gap_scale);
+      find(problem, at, F);
     }
-    double max = recomputed.found.max;
-    const std::vector<double> &rows = recomputed.found.rows;
-    worst = std::max_element(rows.begin(), rows.end()) - rows.begin();
-    // Tracked gaps must not drift away from the displacements.
-    std::size_t strayed = 0;
-    const double stray = gap_tracker.largest_stray(state, strayed);
-    if (!(stray <= max) && !std::isnan(max))
-    {
-      max = stray;
-      worst = strayed;
-    }
-    return max;
+    worst = std::max_element(found.rows.begin(), found.rows.end()) - found.rows.begin();
+    return found.max;
   }
 } // namespace taut

@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace taut
 {
   EnergyGains::EnergyGains(const Structure &structure, const Constraints &constraints,
-                           NonlinearBodies &nonlinear, const ContactConditions &conditions,
-                           const TurningConstraints &turning)
-      : structure(structure), constraints(constraints), nonlinear(nonlinear),
-        conditions(conditions), turning(turning), groups(structure, constraints)
+                           NonlinearStep &nonlinear, const ContactStep &contacts)
+      : structure(structure), constraints(constraints), nonlinear(nonlinear), contacts(contacts),
+        groups(structure, constraints)
   {
     bool here = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -20,11 +18,11 @@ namespace taut
     supports_move = structure.communicator().any(here);
   }
 
-  void EnergyGains::start(State &state)
+  void EnergyGains::start(const State &state)
   {
-    state.kinetic_energies.assign(groups.n_groups(), 0.);
-    add_kinetic_energies(state.V, state.kinetic_energies);
-    structure.communicator().sum(state.kinetic_energies);
+    kinetic.assign(groups.n_groups(), 0.);
+    add_kinetic_energies(state.V, kinetic);
+    structure.communicator().sum(kinetic);
   }
 
   /// Adds V . M V / 2 of each body to its group.
@@ -42,21 +40,22 @@ namespace taut
   {
     const auto add = [&]
     {
-      for (const std::size_t k : nonlinear.indices())
-        of_groups[groups.of_body(k)] += nonlinear.energy_surplus(k, theta, state);
+      for (const std::size_t k : nonlinear.bodies().indices())
+        of_groups[groups.of_body(k)] += nonlinear.bodies().energy_surplus(k, theta, state);
     };
     structure.communicator().agree(std::ref(add)); // a reference allocates nothing
   }
 
   /// Contribution of a constraint with a mean force: the change of its spring energy, or minus its
   /// work if it slides.
-  double EnergyGains::gain_of_spring(const std::size_t i, const State &state) const
+  double EnergyGains::gain_of_spring(const std::size_t i, const State &state,
+                                     const StepReport &report) const
   {
     const ConstraintData &constraint = constraints[i];
-    if (!conditions.mean_force(i))
+    if (!report.is_mean(i))
       return 0.;
     if (constraints.slides(i))
-      return -state.constraint_work[i];
+      return -report.work[i];
     if (constraint.spring.is_rigid())
       return 0.;
     const State::LinkSpring &spring = state.link_springs[i];
@@ -66,8 +65,8 @@ namespace taut
                : .5 * constraint.spring.stiffness * (spring.u * spring.u - before * before);
   }
 
-  void EnergyGains::measure(const BalanceCertificate &balance, State &state,
-                            Certificate &certificate)
+  void EnergyGains::measure(const BalanceCertificate &balance, const State &state,
+                            StepReport &report)
   {
     const std::size_t n = groups.n_groups();
     sums.assign(2 * n, 0.);
@@ -77,20 +76,17 @@ namespace taut
     add_kinetic_energies(state.V, sums);
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      sums[n + groups.of_constraint(i)] += gain_of_spring(i, state);
-    state.energy_gains.assign(n, 0.);
-    certificate.kinetic_energy = certificate.energy_gain = 0.;
+      sums[n + groups.of_constraint(i)] += gain_of_spring(i, state, report);
+    report.gains.assign(n, 0.);
     for (std::size_t g = 0; g < n; ++g)
     {
       if (!supports_move)
-        state.energy_gains[g] = sums[g] - state.kinetic_energies[g] + sums[n + g];
-      state.kinetic_energies[g] = sums[g];
-      certificate.kinetic_energy += sums[g];
-      certificate.energy_gain += state.energy_gains[g];
+        report.gains[g] = sums[g] - kinetic[g] + sums[n + g];
+      kinetic[g] = sums[g];
     }
   }
 
-  void EnergyGains::measure_at_ends(State &state, Certificate &certificate)
+  void EnergyGains::measure_at_ends(const State &state, StepReport &report)
   {
     std::vector<double> lost(groups.n_groups(), 0.);
     sums.assign(groups.n_groups(), 0.);
@@ -105,8 +101,7 @@ namespace taut
     structure.communicator().sum(sums);
     for (const std::size_t i : constraints.turning_rows())
       sums[groups.of_constraint(i)] +=
-          turning.surplus(i, state.multiplier[i], conditions.gaps().increments()[i]);
-    state.energy_gains = sums;
-    certificate.energy_gain = std::accumulate(sums.begin(), sums.end(), 0.);
+          nonlinear.constraints().surplus(i, state.multiplier[i], contacts.increments()[i]);
+    report.gains = sums;
   }
 } // namespace taut

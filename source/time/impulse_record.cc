@@ -21,13 +21,12 @@ namespace taut
   {
   }
 
-  void ImpulseRecord::record(const State &state)
+  void ImpulseRecord::record(const State &state, const StepReport &report)
   {
     for (std::size_t i = 0; i < impulse.size(); ++i)
     {
-      const bool is_mean = !state.is_mean.empty() && state.is_mean[i];
       const double N = state.multiplier[i];
-      impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * state.last_step;
+      impulse[i] += (report.is_mean(i) ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
     if (++n_steps % stride != 0)

@@ -15,10 +15,9 @@ namespace taut
   bool StepCoefficients::operator==(const StepCoefficients &o) const
   {
     return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
-                    alpha_f, mean_force, velocity_level, velocity_projection, restitution) ==
+                    alpha_f, restitution) ==
            std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V, o.a_A, o.a_dU,
-                    o.a_V_old, o.alpha_m, o.alpha_f, o.mean_force, o.velocity_level,
-                    o.velocity_projection, o.restitution);
+                    o.a_V_old, o.alpha_m, o.alpha_f, o.restitution);
   }
 
   double StepCoefficients::ringing() const
@@ -117,24 +116,7 @@ namespace taut
     c.acceleration = 1. / (theta * step * step);
     c.a_V = -1. / (theta * step);
     c.alpha_f = 1. - theta;
-    c.mean_force = true;
-    c.velocity_level = true;
     c.restitution = restitution;
-    return c;
-  }
-
-  StepCoefficients moreau_jean_of_gaps(const double step, const double theta)
-  {
-    StepCoefficients c = moreau_jean(step, theta, 0.);
-    c.velocity_level = false;
-    return c;
-  }
-
-  StepCoefficients gaps_then_velocities(const double step, const double restitution)
-  {
-    StepCoefficients c = moreau_jean(step, .5, restitution);
-    c.velocity_level = false;
-    c.velocity_projection = true;
     return c;
   }
 
@@ -275,23 +257,40 @@ namespace taut
       }
       StepCoefficients coefficients(const double step) const override
       {
-        if (conditions == "velocities")
-          return moreau_jean(step, theta, rebound);
-        if (conditions == "gaps then velocities")
-        {
-          if (theta != .5)
-            throw EntryError(
-                "Time/Moreau-Jean/Theta",
-                "conditions on gaps, then velocities, are for Theta 1/2; set it to 0.5, "
-                "or 'Conditions' to 'gaps' or 'velocities'");
-          return gaps_then_velocities(step, rebound);
-        }
-        if (rebound > 0.)
+        if (is_projected() && theta != .5)
+          throw EntryError("Time/Moreau-Jean/Theta",
+                           "conditions on gaps, then velocities, are for Theta 1/2; set it to 0.5, "
+                           "or 'Conditions' to 'gaps' or 'velocities'");
+        if (conditions == "gaps" && rebound > 0.)
           throw EntryError("Time/Moreau-Jean/Restitution",
                            "restitution is a law of velocities; set it to 0, or 'Conditions' to "
                            "'gaps then velocities'");
-        return moreau_jean_of_gaps(step, theta);
+        return moreau_jean(step, theta, rebound);
       }
+
+      /**
+       * 'velocities': M. Jean (1999). 'gaps': a mean force N does the work N (D - D_0) = -N D_0 <= 0
+       * at the end of the step, and never adds energy; bilateral constraints are at velocity level,
+       * as under D = 0 their velocities alternate for ever at theta = 1/2. 'gaps then velocities':
+       * constraints hold for both at the end of each step (C. W. Gear, B. Leimkuhler, G. K. Gupta,
+       * J. Comput. Appl. Math. 12-13 (1985); O. Brüls, V. Acary, A. Cardona, Comput. Methods Appl.
+       * Mech. Engrg. 281 (2014)); elastic ones that open or turn have mean forces, too. Forces on
+       * quasi-static DoFs remain those at the end of the step, where they hold them in equilibrium.
+       */
+      RowRule rule(const RowTraits &row) const override
+      {
+        using Condition = RowRule::Condition;
+        if (is_projected())
+        {
+          const bool is_mean = (row.is_rigid || row.may_open || row.turns) && !row.is_quasi_static;
+          return {Condition::gap, is_mean ? ForceTime::mean : ForceTime::end, is_mean};
+        }
+        if (!row.is_rigid)
+          return {};
+        return {conditions == "gaps" && row.may_open ? Condition::gap : Condition::velocity,
+                ForceTime::mean, false};
+      }
+      ForceTime internal_forces() const override { return ForceTime::mean; }
       double restitution() const override { return rebound; }
       std::string description() const override
       {
@@ -304,6 +303,8 @@ namespace taut
       }
 
     private:
+      bool is_projected() const { return conditions == "gaps then velocities"; }
+
       double theta = .5, rebound = 0.;
       std::string conditions = "gaps then velocities";
     };

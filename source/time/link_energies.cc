@@ -59,7 +59,7 @@ namespace taut
 
   /// Energy that a constraint gives in a step, beyond its spring and damper.
   double LinkEnergies::gain(const std::size_t i, const State &state,
-                            const StepCoefficients &c) const
+                            const StepReport &report) const
   {
     const ConstraintData &constraint = constraints[i];
     const Row &row = rows[i];
@@ -67,13 +67,13 @@ namespace taut
     if (constraints.distance_beyond(i, state.time) > 0.)
       return 0.;
     const double change = state.gap[i] - row.gap;
-    const bool is_mean = c.mean_force && state.is_mean[i];
+    const bool is_mean = report.is_mean(i);
     if (is_mean && !constraints.slides(i))
     {
       if (constraint.spring.is_rigid())
-        return state.constraint_work[i];
+        return report.work[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      const double with_damper = state.constraint_work[i] + constraint.spring.energy(spring.u) -
+      const double with_damper = report.work[i] + constraint.spring.energy(spring.u) -
                                  constraint.spring.energy(row.u);
       // A contact with a damper ends at zero force. The damper takes the remaining energy of the
       // spring, all of it within part of a step.
@@ -101,9 +101,8 @@ namespace taut
     account.end = end;
   }
 
-  void LinkEnergies::record(const State &state, const StepCoefficients &c)
+  void LinkEnergies::record(const State &state, const StepReport &report)
   {
-    const bool whole = c.mean_force && !c.velocity_level; // gains count in groups
     const auto impulse_of = [&](const std::size_t i) -> double &
     { return energies[connected.of_constraint(i)].impulse[constraints[i].rotational ? 1 : 0]; };
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -128,9 +127,12 @@ namespace taut
           row.is_fast = true;
         }
         row.fastest = std::max(row.fastest, rate);
-        const double change = !constraints[i].spring.is_rigid() ? gain(i, state, c)
-                              : whole                           ? 0.
-                                                                : std::max(0., gain(i, state, c));
+        const RowRule &rule = report.method.rules[i];
+        double change = 0.;
+        if (!constraints[i].spring.is_rigid())
+          change = gain(i, state, report);
+        else if (!rule.is_mean() || rule.is_on_velocity()) // other gains count in groups
+          change = std::max(0., gain(i, state, report));
         row.closing += change;
         if (row.is_fast || std::fabs(change) > small_change * std::fabs(row.closing))
           row.impulse_until = impulse_of(i);

@@ -35,9 +35,9 @@ namespace taut
     impulse.resize(dU.size());
     for (std::size_t i = 0; i < dU.size(); ++i)
     {
-      motion[i] = of.c.mean_force ? mean * (A[i] - A0[i])
+      motion[i] = of.method.has_means() ? mean * (A[i] - A0[i])
                                   : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
-      impulse[i] = of.c.velocity_projection ? step * (V[i] - V0[i] - step * A[i]) : 0.;
+      impulse[i] = of.method.corrects_velocities ? step * (V[i] - V0[i] - step * A[i]) : 0.;
     }
     // A prescribed place has no error, but its kinks and jumps need short steps.
     for (const ConstrainedDof &constraint : structure[k].constraints())
@@ -57,7 +57,7 @@ namespace taut
     return largest(structure[k], x);
   }
 
-  double LocalError::measure(const State &state, const StepCoefficients &c,
+  double LocalError::measure(const State &state, const StepMethod &method,
                              const double step_before, const BodyVectors &old_A)
   {
     PerKind error = {0., 0.}, size = {0., 0.};
@@ -66,7 +66,7 @@ namespace taut
       of_wholes.assign(wholes.n_groups(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      set_error({state, c, step_before, old_A}, k);
+      set_error({state, method, step_before, old_A}, k);
       const std::size_t whole = wholes.of_body(k);
       if (!structure[k].is_lumped() && mass_of_whole[whole] > 0.)
       {

@@ -149,9 +149,9 @@ namespace taut
               constraints[i].spring.energy(state.link_springs[i].u);
   }
 
-  void MotionRecord::record(const State &state)
+  void MotionRecord::record(const State &state, const StepReport &report)
   {
-    impulses.record(state);
+    impulses.record(state, report);
     add_speeds(state);
     const double early = rounding_of_times * state.last_step;
     for (bool is_first = true; n_recorded < n && time_of(n_recorded) <= state.time + early;

@@ -30,23 +30,22 @@ namespace taut
     return result;
   }
 
-  NonlinearBodies::NonlinearBodies(const Structure &structure, const Reference &reference)
-      : structure(&structure), reference(&reference), steps(structure.size())
+  NonlinearBodies::NonlinearBodies(const Structure &structure, const Reference &reference,
+                                   const StepMethod &method)
+      : structure(structure), reference(reference), method(method), steps(structure.size())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       if (!structure[k].is_linear())
         bodies.push_back(k);
   }
 
-  void NonlinearBodies::begin(const State &before, const StepCoefficients &coefficients,
-                              const double length)
+  void NonlinearBodies::begin(const State &before)
   {
-    c = coefficients;
-    step = length;
+    const StepCoefficients &c = method.c;
     for (const std::size_t k : bodies)
     {
       Step &own = steps[k];
-      own.U0 = reference->displacement[k];
+      own.U0 = reference.displacement[k];
       own.known_V.resize(own.U0.size());
       for (std::size_t i = 0; i < own.U0.size(); ++i)
       {
@@ -55,7 +54,7 @@ namespace taut
       }
       own.energy_is_known = own.U0 == own.U1;
       own.seen_U0 = own.U0;
-      const auto *const slender = dynamic_cast<const SlenderBody *>(&(*structure)[k]);
+      const auto *const slender = dynamic_cast<const SlenderBody *>(&structure[k]);
       if (slender && !c.is_at_rest())
         slender->disturb(own.seen_U0);
       own.f0 = own.f = before.KU[k];
@@ -69,18 +68,19 @@ namespace taut
     for (const std::size_t k : bodies)
       motions.visit(k, 0, steps[k].known_V.size(),
                     [&](const unsigned int i, const double V, double)
-                    { steps[k].known_V[i] = V - c.velocity * motions.increments(k)[i]; });
+                    { steps[k].known_V[i] = V - method.c.velocity * motions.increments(k)[i]; });
   }
 
   std::unique_ptr<SymmetricMatrix> NonlinearBodies::tangent(const std::size_t k,
                                                             const int attempt) const
   {
-    const Substructure &body = (*structure)[k];
+    const Substructure &body = structure[k];
     const Step &own = steps[k];
-    set_end(own, own.dU, c);
+    const double velocity = method.c.velocity;
+    set_end(own, own.dU);
     std::unique_ptr<SymmetricMatrix> K =
-        c.mean_force ? body.mean_tangent(own.seen_U0, end_U, c.velocity, attempt > 0)
-                     : body.tangent(end_U, end_V, c.velocity, attempt > 0);
+        method.has_means() ? body.mean_tangent(own.seen_U0, end_U, velocity, attempt > 0)
+                           : body.tangent(end_U, end_V, velocity, attempt > 0);
     if (attempt > 1)
       K->add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(*K) /
                  largest_on_diagonal(body.mass()),
@@ -101,11 +101,11 @@ namespace taut
                                     const SymmetricMatrix &K)
   {
     Step &own = steps[k];
-    const Substructure &body = (*structure)[k];
+    const Substructure &body = structure[k];
     last_dU.swap(own.dU);
     last_remainder.swap(own.remainder);
     own.dU = dU;
-    end_force(k, c, own, dU, own.f);
+    end_force(k, own, dU, own.f);
     set_tangent(k, K);
 
     for (std::vector<double> &rows : tile)
@@ -120,7 +120,7 @@ namespace taut
                   {
                     difference[i - begin] = last_dU[i] - dU[i];
                     unbalanced[i - begin] = last_remainder[i] - own.remainder[i];
-                    whole[i - begin] = own.f[i] + reference->force[k][i];
+                    whole[i - begin] = own.f[i] + reference.force[k][i];
                   }
                   found.add({difference, dU.data() + begin, unbalanced, whole}, end - begin);
                 });
@@ -138,28 +138,26 @@ namespace taut
     return result;
   }
 
-  void NonlinearBodies::set_end(const Step &own, const std::vector<double> &dU,
-                                const StepCoefficients &coefficients) const
+  void NonlinearBodies::set_end(const Step &own, const std::vector<double> &dU) const
   {
     end_U.resize(dU.size());
     end_V.resize(dU.size());
     for (std::size_t i = 0; i < dU.size(); ++i)
     {
       end_U[i] = own.seen_U0[i] + dU[i];
-      end_V[i] = own.known_V[i] + coefficients.velocity * dU[i];
+      end_V[i] = own.known_V[i] + method.c.velocity * dU[i];
     }
   }
 
-  void NonlinearBodies::end_force(const std::size_t k, const StepCoefficients &coefficients,
-                                  const Step &own, const std::vector<double> &dU,
-                                  std::vector<double> &f) const
+  void NonlinearBodies::end_force(const std::size_t k, const Step &own,
+                                  const std::vector<double> &dU, std::vector<double> &f) const
   {
-    const Substructure &body = (*structure)[k];
-    set_end(own, dU, coefficients);
-    const std::vector<double> &f_ref = reference->force[k];
-    if (coefficients.mean_force)
+    const Substructure &body = structure[k];
+    set_end(own, dU);
+    const std::vector<double> &f_ref = reference.force[k];
+    if (method.has_means())
     {
-      body.mean_internal_force(own.seen_U0, end_U, step, f);
+      body.mean_internal_force(own.seen_U0, end_U, method.length, f);
       for (std::size_t i = 0; i < f.size(); ++i)
         f[i] = 2. * (f[i] - f_ref[i]) - own.f0[i];
       return;
@@ -169,55 +167,54 @@ namespace taut
       f[i] -= f_ref[i];
   }
 
-  void NonlinearBodies::set_end_force(const std::size_t k, const StepCoefficients &coefficients,
-                                      State &state) const
+  void NonlinearBodies::set_end_force(const std::size_t k, State &state) const
   {
-    if (!coefficients.is_at_rest())
+    if (!method.c.is_at_rest())
     {
       const Step &own = steps[k];
-      if (coefficients == c && state.dU[k] == own.dU) // the last guess
+      if (state.dU[k] == own.dU) // the last guess
         state.KU[k] = own.f;
       else
-        end_force(k, coefficients, own, state.dU[k], state.KU[k]);
+        end_force(k, own, state.dU[k], state.KU[k]);
       return;
     }
     std::vector<double> &KU = state.KU[k];
-    (*structure)[k].internal_force(displacement(*reference, state, k), {}, KU);
+    structure[k].internal_force(displacement(reference, state, k), {}, KU);
     for (std::size_t i = 0; i < KU.size(); ++i)
-      KU[i] -= reference->force[k][i];
+      KU[i] -= reference.force[k][i];
   }
 
   const std::vector<double> &NonlinearBodies::end_of_step(const std::size_t k, const State &state)
   {
-    copy_displacement(*reference, state, k, steps[k].U1);
+    copy_displacement(reference, state, k, steps[k].U1);
     return steps[k].U1;
   }
 
   double NonlinearBodies::energy_surplus(const std::size_t k, const double part_of_end,
                                          const State &state)
   {
-    const Substructure &body = (*structure)[k];
+    const Substructure &body = structure[k];
     Step &own = steps[k];
     const double before = own.energy_is_known ? own.energy : body.strain_energy(own.U0);
     own.energy = body.strain_energy(end_of_step(k, state));
     double sum = own.energy - before;
     for (std::size_t i = 0; i < own.dU.size(); ++i)
-      sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference->force[k][i]) *
+      sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference.force[k][i]) *
              own.dU[i];
     return sum;
   }
 
   void NonlinearBodies::set_own_force(State &state)
   {
-    if (!c.mean_force)
+    if (!method.has_means())
       return;
     for (const std::size_t k : bodies)
     {
       std::vector<double> &KU = state.KU[k], &f = own_force;
-      (*structure)[k].internal_force(end_of_step(k, state), {}, f);
+      structure[k].internal_force(end_of_step(k, state), {}, f);
       for (std::size_t i = 0; i < f.size(); ++i)
       {
-        const double own = f[i] - reference->force[k][i];
+        const double own = f[i] - reference.force[k][i];
         state.balance[k][i] += KU[i] - own;
         KU[i] = own;
       }

@@ -14,8 +14,8 @@ namespace taut
   {
     /// Limits of the error of increments, see NonlinearBodies::set_guess(). If rounding keeps it
     /// above the first limit, the balance of the step shows the error.
-    constexpr NewtonConvergence::Limits limits = {1e-9, 1e-5, 2};
-    constexpr int most_iterations = 30;
+    constexpr NewtonConvergence::Limits limits_of_step = {1e-9, 1e-5, 2};
+    constexpr int most_in_step = 30;
 
     /// Iterations up to which a tangent is kept, by the rate of convergence, also for the next
     /// step. A tangent with its factors costs two or three iterations, but saves fewer.
@@ -24,14 +24,14 @@ namespace taut
     /// Whether a change after @p before needs more iterations at the same rate.
     bool is_slow(const double change, const double before)
     {
-      return !(change * std::pow(change / before, most_with_a_kept_tangent) <= limits.converged);
+      return !(change * std::pow(change / before, most_with_a_kept_tangent) <= limits_of_step.converged);
     }
   } // namespace
 
   NonlinearStep::NonlinearStep(const Structure &structure, Constraints &constraints,
-                               const Reference &reference)
-      : structure(structure), constraint_set(constraints), nonlinear(structure, reference),
-        turning(constraints, reference),
+                               const Reference &reference, const StepMethod &method)
+      : structure(structure), constraint_set(constraints), method(method),
+        nonlinear(structure, reference, method), turning(constraints, reference, method),
         bodies_are_linear(!structure.communicator().any(!nonlinear.indices().empty()))
   {
     check_masses(constraints);
@@ -51,14 +51,11 @@ namespace taut
                              "'Mass matrix' that is not 'reduced'");
   }
 
-  void NonlinearStep::prepare(const StepCoefficients &coefficients, const double step,
-                              const State &state)
+  void NonlinearStep::prepare(const State &state)
   {
-    turning.prepare(coefficients);
-    c = coefficients;
-    length = step;
+    turning.check_method();
     tangents_are_kept = false;
-    nonlinear.begin(state, c, length);
+    nonlinear.begin(state);
   }
 
   void NonlinearStep::follow(const State &state)
@@ -98,8 +95,8 @@ namespace taut
         std::isnan(change) ? std::numeric_limits<double>::infinity() : change);
     if (turning.empty())
       return of_bodies;
-    return std::max(of_bodies, turning.set_guess(dU, state, step.conditions().applied().multiplier,
-                                                 step.conditions().springs().histories()));
+    return std::max(of_bodies, turning.set_guess(dU, state, step.contacts().applied().multiplier,
+                                                 step.contacts().histories()));
   }
 
   /// The iterations of one step, from dU = 0. New tangents are those at the last guess.
@@ -115,8 +112,8 @@ namespace taut
     {
       n = 0;
       own.multiplier = state.multiplier;
-      own.nonlinear.begin(state, own.c, own.length);
-      own.turning.begin(own.c);
+      own.nonlinear.begin(state);
+      own.turning.begin();
       own.turn();
       step.costs().lap(StepPart::nonlinear);
       if (!own.tangents_are_kept)
@@ -183,7 +180,7 @@ namespace taut
 
   void NonlinearStep::find_increments(Step &step, State &state, Certificate &certificate)
   {
-    const NewtonSearch search(limits, most_iterations);
+    const NewtonSearch search(limits_of_step, most_in_step);
     Iterations iterations_of_step(*this, step, state, certificate);
     if (search.find(iterations_of_step))
       return;
@@ -193,7 +190,7 @@ namespace taut
     if (once_more && search.find(iterations_of_step))
       return;
     throw UserError(to_text("at t = ", state.time,
-                            " s: Newton's method does not converge in a step of ", length,
+                            " s: Newton's method does not converge in a step of ", method.length,
                             " s. Take a smaller step"));
   }
 } // namespace taut

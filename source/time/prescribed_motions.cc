@@ -7,8 +7,9 @@
 
 namespace taut
 {
-  PrescribedMotions::PrescribedMotions(const Structure &structure, const Reference &reference)
-      : structure(structure), reference(reference), moving(structure.size()), dU(structure.zero()),
+  PrescribedMotions::PrescribedMotions(const Structure &structure, const Reference &reference,
+                                       const StepMethod &method)
+      : structure(structure), reference(reference), method(method), moving(structure.size()), dU(structure.zero()),
         body_lifts(structure.size(), 0)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -23,10 +24,10 @@ namespace taut
   }
 
   /// What does not move in time is where it belongs after its first increment.
-  void PrescribedMotions::set(const StepCoefficients &c, const State &state)
+  void PrescribedMotions::set(const State &state)
   {
     lifts = false;
-    has_rates = some_move && c.mean_force && !c.velocity_projection;
+    has_rates = some_move && method.has_velocity_conditions();
     if (has_rates && rate_lift.empty())
       rate_lift = structure.zero();
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -41,15 +42,15 @@ namespace taut
         body_lifts[k] = body_lifts[k] || dU[k][dof] != 0.;
       }
       lifts = lifts || body_lifts[k];
-      if (!c.is_at_rest())
+      if (!method.c.is_at_rest())
         for (Moving &one : moving[k])
-          set_rates(k, one, c, state);
+          set_rates(k, one, state);
     }
   }
 
-  void PrescribedMotions::set_rates(const std::size_t k, Moving &one, const StepCoefficients &c,
-                                    const State &state)
+  void PrescribedMotions::set_rates(const std::size_t k, Moving &one, const State &state)
   {
+    const StepCoefficients &c = method.c;
     const std::function<double(double)> &u = structure[k].constraints()[one.constraint].motion;
     const unsigned int dof = one.dof;
     const double step = state.last_step, way = dU[k][dof], v0 = state.V[k][dof];

@@ -70,13 +70,14 @@ namespace taut
   StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
                          const SolverParameters &parameters, const double t, const BodyVectors &U)
       : structure(structure), constraints(constraints), undeformed(undeformed_bodies(structure)),
-        state(start_at(structure, constraints, undeformed, t, U)), nonlinear(structure, undeformed),
-        none(constraints, undeformed),
-        step(structure, constraints, parameters, undeformed, nonlinear, none, state)
+        state(start_at(structure, constraints, undeformed, t, U)),
+        method(method_at_rest(constraints.size())), nonlinear(structure, undeformed, method),
+        none(constraints, undeformed, method),
+        step(structure, constraints, parameters, undeformed, method, nonlinear, none, state)
   {
-    nonlinear.begin(state, StepCoefficients(), 0.);
-    step.prepare(StepCoefficients(), 0.);
-    step.conditions().gaps().count_motions(U);
+    nonlinear.begin(state);
+    step.prepare();
+    step.contacts().count_motions(U);
   }
 
   StaticState StaticStep::solve()
@@ -124,14 +125,14 @@ namespace taut
     structure.communicator().sum(size);
     double largest = 0.;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (step.conditions().applied().closed[i])
+      if (step.contacts().applied().closed[i])
         largest =
             std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
-    const std::vector<LinearForm> &G = step.conditions().problem_of_step().null_space;
-    const std::vector<double> &load = step.conditions().problem_of_step().null_space_load;
+    const std::vector<LinearForm> &G = step.contacts().problem_of_step().null_space;
+    const std::vector<double> &load = step.contacts().problem_of_step().null_space_load;
     for (std::size_t m = 0; m < G.size(); ++m)
     {
-      double sum = load[m], terms = step.conditions().problem_of_step().null_space_terms[m];
+      double sum = load[m], terms = step.contacts().problem_of_step().null_space_terms[m];
       for (std::size_t e = 0; e < G[m].index.size(); ++e)
       {
         const double force = G[m].value[e] * state.multiplier[G[m].index[e]];
@@ -151,14 +152,14 @@ namespace taut
    */
   void StaticStep::refine()
   {
-    const std::vector<char> &closed = step.conditions().applied().closed;
+    const std::vector<char> &closed = step.contacts().applied().closed;
     if (std::count(closed.begin(), closed.end(), 0) == static_cast<std::ptrdiff_t>(closed.size()))
       return;
     double error = relative_remainder();
     for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)
     {
       const State before = state;
-      const MixedComplementaritySolution applied = step.conditions().applied();
+      const MixedComplementaritySolution applied = step.contacts().applied();
       BodyVectors forces = P;
       constraints.add_forces(state.multiplier, forces);
       step.history().loads() = structure.zero();
@@ -168,7 +169,7 @@ namespace taut
       if (!(refined < error))
       {
         state = before;
-        step.conditions().restore(applied, state);
+        step.contacts().restore(applied, state);
         return;
       }
       error = refined;
@@ -178,12 +179,12 @@ namespace taut
   bool StaticStep::flexibility(const std::vector<std::size_t> &rows,
                                std::vector<std::vector<double>> &result)
   {
-    const ContactConditions &conditions = step.conditions();
-    const std::vector<double> &compliance = conditions.springs().compliance();
-    MixedComplementarityProblem unit = conditions.problem_of_step();
+    const ContactStep &contacts = step.contacts();
+    const std::vector<double> &compliance = contacts.compliance();
+    MixedComplementarityProblem unit = contacts.problem_of_step();
     std::vector<std::size_t> closed;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (conditions.applied().closed[i] || std::fabs(state.gap[i]) <= touching * unit.gap_scale[i])
+      if (contacts.applied().closed[i] || std::fabs(state.gap[i]) <= touching * unit.gap_scale[i])
         closed.push_back(i);
     unit.gap_scale.clear();
     std::fill(unit.null_space_load.begin(), unit.null_space_load.end(), 0.);

@@ -21,7 +21,7 @@ namespace taut
     StaticState solve();
 
     /// After solve(): which constraints are closed. Another step near this one starts from them.
-    const std::vector<char> &closed() const { return step.conditions().applied().closed; }
+    const std::vector<char> &closed() const { return step.contacts().applied().closed; }
     void start_from(const std::vector<char> &rows) { step.equations().start_from(rows); }
 
     /// After solve(): the certificate of its result.
@@ -55,6 +55,7 @@ namespace taut
     const Constraints &constraints;
     const Reference undeformed;
     State state;
+    const StepMethod method;
     NonlinearBodies nonlinear;
     const TurningConstraints none;
     Step step;

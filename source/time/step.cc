@@ -19,10 +19,13 @@ namespace taut
 
   Step::Step(const Structure &structure, const Constraints &constraints,
              const SolverParameters &parameters, const Reference &reference,
-             const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start)
-      : structure(structure), constraints(constraints), parameters(parameters), bodies(bodies),
-        turning(turning), own_conditions(structure, constraints, turning, reference, start),
-        own_history(structure, reference), own_balance(structure, constraints, reference, bodies),
+             const StepMethod &method, const NonlinearBodies &bodies,
+             const TurningConstraints &turning, const State &start)
+      : structure(structure), constraints(constraints), parameters(parameters), method(method),
+        bodies(bodies), turning(turning),
+        own_contacts(structure, constraints, turning, reference, method, start),
+        own_history(structure, reference, method),
+        own_balance(structure, constraints, reference, method, bodies),
         own_check(structure, constraints, parameters.contact_tolerance)
   {
     structure.communicator().agree([&] { own_history.set_external_forces(start.time); });
@@ -49,11 +52,11 @@ namespace taut
     return std::clamp<std::size_t>(most_kept_dofs / std::max(1., n_dofs), 1, most_coefficients);
   }
 
-  void Step::prepare(const StepCoefficients &coefficients, const double length)
+  void Step::prepare()
   {
-    c = coefficients;
-    own_conditions.prepare(c, length);
-    const std::vector<double> &S = own_conditions.springs().compliance();
+    const StepCoefficients &c = method.c;
+    own_contacts.prepare();
+    const std::vector<double> &S = own_contacts.compliance();
     const auto is_for = [&](const Kept &one) { return one.is_prepared && one.c == c; };
     const std::size_t most = most_kept();
     auto found = most > 1 ? std::find_if(kept.begin(), kept.end(), is_for) : kept.end();
@@ -72,7 +75,7 @@ namespace taut
       kept.front() = {c, std::move(kept.front().equations), true};
     }
     if (goes_on)
-      equations().start_from(own_conditions.applied().closed);
+      equations().start_from(own_contacts.applied().closed);
   }
 
   void Step::reset()
@@ -92,8 +95,8 @@ namespace taut
 
   void Step::set_loads(State &before)
   {
-    structure.communicator().agree([&] { own_history.set_loads(c, equations(), before); });
-    const std::vector<double> &old = own_conditions.forces_at_previous_place(before);
+    structure.communicator().agree([&] { own_history.set_loads(equations(), before); });
+    const std::vector<double> &old = own_contacts.forces_at_previous_place(before);
     if (!old.empty())
       constraints.add_forces(old, own_history.loads());
     own_costs.lap(StepPart::loads);
@@ -101,18 +104,18 @@ namespace taut
 
   void Step::find_increments(State &state, Certificate &certificate)
   {
-    own_conditions.set_problem(state, equations(), own_history.loads(), own_history.prescribed());
+    own_contacts.set_problem(state, equations(), own_history.loads(), own_history.prescribed());
     own_costs.lap(StepPart::free_gaps);
     if (constraints.size() > 0 || equations().has_modes())
     {
       const Certificate before = certificate;
-      own_conditions.find_multipliers(equations(), own_check, certificate, state);
+      own_contacts.find_multipliers(equations(), own_check, certificate, state);
       certificate.iterations += before.iterations;
       certificate.fallback = certificate.fallback || before.fallback;
     }
     own_costs.lap(StepPart::contacts);
-    equations().find_increments(own_conditions.applied().multiplier,
-                                own_conditions.applied().mode_amplitude, own_history.increments());
+    equations().find_increments(own_contacts.applied().multiplier,
+                                own_contacts.applied().mode_amplitude, own_history.increments());
     own_costs.lap(StepPart::bodies);
   }
 
@@ -120,17 +123,19 @@ namespace taut
   {
     own_history.exchange(state);
     for (std::size_t k = 0; k < structure.size(); ++k)
-      own_history.accept(c, k, 0, state.U[k].size(), state);
-    own_conditions.update(state);
+      own_history.accept(k, 0, state.U[k].size(), state);
+    own_contacts.update(state, own_report);
   }
 
   void Step::accept(State &state, Certificate &certificate)
   {
+    own_report.method = method;
+    own_report.gains.clear();
     own_history.exchange(state);
     measure(state, certificate,
             [&](const std::size_t k, const std::size_t begin, const std::size_t end)
-            { own_history.accept(c, k, begin, end, state); });
-    own_conditions.update(state);
+            { own_history.accept(k, begin, end, state); });
+    own_contacts.update(state, own_report);
     own_costs.lap(StepPart::state);
   }
 
@@ -145,11 +150,11 @@ namespace taut
     structure.communicator().agree(
         [&]
         {
-          if (!c.is_at_rest())
+          if (!method.c.is_at_rest())
             own_history.prescribed().impose_velocities_of_step(state);
-          own_balance.measure(c, own_history.forces(), own_conditions.in_balance(),
-                              own_conditions.impulsive(), state, rows);
-          if (!c.is_at_rest())
+          own_balance.measure(own_history.forces(), own_contacts.in_balance(),
+                              own_contacts.impulsive(), state, rows);
+          if (!method.c.is_at_rest())
             own_history.prescribed().impose_velocities(state);
         });
     certificate.balance = structure.communicator().max(own_balance.residual());
@@ -157,13 +162,13 @@ namespace taut
 
   bool Step::correct(State &state, const BodyVectors &on_modes)
   {
-    if (!own_conditions.correct(state, equations(), own_history.loads(), on_modes))
+    if (!own_contacts.correct(state, equations(), own_history.loads(), on_modes))
       return false;
-    equations().find_increments(own_conditions.corrections().multiplier,
-                                own_conditions.corrections().mode_amplitude,
+    equations().find_increments(own_contacts.corrections().multiplier,
+                                own_contacts.corrections().mode_amplitude,
                                 own_history.increments());
-    own_history.add_correction(c, state);
-    own_conditions.add_correction(own_history.increments(), state);
+    own_history.add_correction(state);
+    own_contacts.add_correction(own_history.increments(), state);
     return true;
   }
 
@@ -172,10 +177,10 @@ namespace taut
   /// solution. An equilibrium is refined by its search.
   bool Step::refine(State &state)
   {
-    if (c.mean_force || c.is_at_rest() ||
+    if (method.has_means() || method.c.is_at_rest() ||
         structure.communicator().any(!own_balance.is_cancellation()))
       return false;
-    own_history.set_lacking(c, equations(), state);
+    own_history.set_lacking(equations(), state);
     return correct(state, own_history.loads());
   }
 
@@ -187,8 +192,8 @@ namespace taut
       measure_balance(state, certificate);
     certificate.worst_body = own_balance.worst_body();
     certificate.complementarity =
-        own_conditions.residual(state, equations(), certificate.worst_constraint);
-    certificate.drift = own_conditions.drift(state);
+        own_contacts.residual(state, equations(), certificate.worst_constraint);
+    certificate.drift = own_contacts.drift(state);
     own_check.check_constraints(certificate,
                                 equations().repeated_rows().partners(certificate.worst_constraint));
     own_check.check_balance(certificate, own_balance.residual());

@@ -2,6 +2,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
+#include <taut/time/motion.h>
 #include <taut/time/step_accuracy.h>
 
 #include <algorithm>
@@ -125,15 +126,13 @@ namespace taut
     try
     {
       run.constraints.set_courses(courses);
-      TimeStepper stepper(run.structure, run.constraints, run.solver, run.integrator, step,
-                          run.reference, run.start, run.at_rest);
-      StepControl steps(control, step, n, !stepper.is_linear(), longest_steps);
+      Motion motion(run.motion, step, control, longest_steps, n);
       MotionRecord other(run.structure, run.constraints, groups, run.reference, run.start, interval,
                          n_samples);
-      while (!steps.is_finished())
+      while (!motion.is_finished())
       {
-        steps.advance(stepper);
-        other.record(stepper.state());
+        motion.advance();
+        other.record(motion.state(), motion.report());
         if (stop())
         {
           reason = "the run was ended";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/time/step_control.h>
+#include <taut/time/motion.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -82,14 +82,13 @@ namespace taut
   }
 
   /// Makes a step of the present length, or a shorter one if it has no solution.
-  void StepControl::solve(TimeStepper &stepper)
+  void StepControl::solve(Motion &motion)
   {
     for (;;)
     {
-      stepper.set_step(shortest * length());
       try
       {
-        stepper.advance();
+        motion.try_step(shortest * length());
         return;
       }
       catch (const StepNotSolved &)
@@ -109,62 +108,62 @@ namespace taut
   }
 
   /// Longest step that resolves a contact in the last step [s].
-  double StepControl::longest_step(const std::size_t i, const TimeStepper &stepper) const
+  double StepControl::longest_step(const std::size_t i, const Motion &motion) const
   {
-    return longest_steps[i].between(-stepper.before().geometric_gap[i],
-                                    -stepper.state().geometric_gap[i]);
+    return longest_steps[i].between(-motion.rows_before().geometric_gap[i],
+                                    -motion.state().geometric_gap[i]);
   }
 
   /// Whether a contact is under way: it opens or closes, may still be a rebound, or its force
   /// changes much. Others follow their bodies.
-  bool StepControl::is_moving_contact(const std::size_t i, const TimeStepper &stepper) const
+  bool StepControl::is_moving_contact(const std::size_t i, const Motion &motion) const
   {
     // Longest steps that a rebound takes, and the part of its force that a step may change.
     constexpr double steps_of_rebound = 40., large_change = .2;
-    const double first = stepper.before().multiplier[i], last = stepper.state().multiplier[i];
+    const double first = motion.rows_before().multiplier[i], last = motion.state().multiplier[i];
     if (!(first > 0.) || !(last > 0.))
       return first > 0. || last > 0.;
-    return stepper.state().time - last_open[i] < steps_of_rebound * longest_step(i, stepper) ||
+    return motion.state().time - last_open[i] < steps_of_rebound * longest_step(i, motion) ||
            !(std::fabs(last - first) <= large_change * std::max(first, last));
   }
 
   /// A contact under way may need shorter steps than the last one.
-  bool StepControl::is_too_long_for_contacts(const TimeStepper &stepper) const
+  bool StepControl::is_too_long_for_contacts(const Motion &motion) const
   {
     constexpr double rounding = 1e-9;
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      if (shortest * length() > longest_step(i, stepper) * (1. + rounding) &&
-          is_moving_contact(i, stepper))
+      if (shortest * length() > longest_step(i, motion) * (1. + rounding) &&
+          is_moving_contact(i, motion))
         return true;
     return false;
   }
 
-  void StepControl::advance_fixed(TimeStepper &stepper)
+  void StepControl::advance_fixed(Motion &motion)
   {
     if (n_levels == 0)
     {
-      stepper.advance();
+      motion.try_step(step);
       ++position;
       return;
     }
-    solve(stepper);
-    while (level > 0 && is_too_long_for_contacts(stepper))
+    solve(motion);
+    while (level > 0 && is_too_long_for_contacts(motion))
     {
-      stepper.take_back();
+      motion.take_back();
       shorten(1);
-      solve(stepper);
+      solve(motion);
     }
     position += length();
     bool is_closed = false; // by a contact under way
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
       is_closed =
-          is_closed || (longest_steps[i].shortest() < step && stepper.state().multiplier[i] > 0. &&
-                        is_moving_contact(i, stepper));
+          is_closed || (longest_steps[i].shortest() < step && motion.state().multiplier[i] > 0. &&
+                        is_moving_contact(i, motion));
     while (level < n_levels && !is_closed && position % (2 * length()) == 0)
       ++level;
   }
 
-  void StepControl::advance_adaptive(TimeStepper &stepper)
+  void StepControl::advance_adaptive(Motion &motion)
   {
     const bool is_first = position == 0;
     while (position + length() > end)
@@ -172,14 +171,14 @@ namespace taut
     double error = 0.;
     for (;;)
     {
-      while (level > 0 && !stepper.resolves_loads(shortest * length(), step, parameters.tolerance))
+      while (level > 0 && !motion.resolves_loads(shortest * length(), step, parameters.tolerance))
         --level;
-      solve(stepper);
-      error = stepper.local_error() / parameters.tolerance;
-      if (level == 0 || (!(error > 1.) && !is_too_long_for_contacts(stepper)))
+      solve(motion);
+      error = motion.local_error() / parameters.tolerance;
+      if (level == 0 || (!(error > 1.) && !is_too_long_for_contacts(motion)))
         break;
       const double too_long = std::isfinite(error) ? std::log2(std::max(error, 1.)) : 0.;
-      stepper.take_back();
+      motion.take_back();
       shorten(std::max(1u, static_cast<unsigned int>(too_long / order_of_error)));
     }
     position += length();
@@ -192,16 +191,16 @@ namespace taut
     }
   }
 
-  void StepControl::advance(TimeStepper &stepper)
+  void StepControl::advance(Motion &motion)
   {
     const unsigned int level_before = level, n_calm_before = n_calm;
     const long repeated_before = repeated;
     try
     {
       if (parameters.adaptive())
-        advance_adaptive(stepper);
+        advance_adaptive(motion);
       else
-        advance_fixed(stepper);
+        advance_fixed(motion);
     }
     catch (...)
     {
@@ -210,7 +209,7 @@ namespace taut
       repeated = repeated_before;
       throw;
     }
-    const State &state = stepper.state();
+    const State &state = motion.state();
     for (std::size_t i = 0; i < last_open.size(); ++i)
       if (!(state.multiplier[i] > 0.))
         last_open[i] = state.time;

@@ -46,8 +46,10 @@ namespace taut
     };
   } // namespace
 
-  StepHistory::StepHistory(const Structure &structure, const Reference &reference)
-      : structure(structure), reference(reference), motions(structure, reference)
+  StepHistory::StepHistory(const Structure &structure, const Reference &reference,
+                           const StepMethod &method)
+      : structure(structure), reference(reference), method(method),
+        motions(structure, reference, method)
   {
     StepForces &f = step_forces;
     for (BodyVectors *v :
@@ -81,24 +83,24 @@ namespace taut
     step_forces.external_size[k] = largest(body, P);
   }
 
-  void StepHistory::set_loads(const StepCoefficients &c, const StepEquations &equations,
-                              State &state)
+  void StepHistory::set_loads(const StepEquations &equations, State &state)
   {
-    motions.set(c, state);
+    motions.set(state);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
       if (body.external_force_varies())
         set_external_force(k, state.time);
       equations.bodies().remove_rounding(k, state.KU[k], state.balance[k]);
-      set_load(k, c, state);
+      set_load(k, state);
       if (motions.lifts_body(k))
         equations.lift(k, motions.increments(k), shared[k]);
     }
   }
 
-  void StepHistory::set_load(const std::size_t k, const StepCoefficients &c, const State &state)
+  void StepHistory::set_load(const std::size_t k, const State &state)
   {
+    const StepCoefficients &c = method.c;
     const Substructure &body = structure[k];
     const Predictor known(c, state.V[k], state.A[k], state.dU[k], state.V_old[k]);
     const bool old_forces_count = c.alpha_m != 0. || c.alpha_f != 0.,
@@ -182,9 +184,10 @@ namespace taut
     state.balance.swap(f.old_balance);
   }
 
-  void StepHistory::accept(const StepCoefficients &c, const std::size_t k, const std::size_t begin,
-                           const std::size_t end, State &state) const
+  void StepHistory::accept(const std::size_t k, const std::size_t begin, const std::size_t end,
+                           State &state) const
   {
+    const StepCoefficients &c = method.c;
     const double velocity = c.velocity, acceleration = c.acceleration;
     const double *dU = state.dU[k].data();
     const double *U0 = step_forces.old_U[k].data();
@@ -207,9 +210,9 @@ namespace taut
                     });
   }
 
-  void StepHistory::set_lacking(const StepCoefficients &c, const StepEquations &equations,
-                                State &state)
+  void StepHistory::set_lacking(const StepEquations &equations, State &state)
   {
+    const StepCoefficients &c = method.c;
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -227,8 +230,9 @@ namespace taut
     }
   }
 
-  void StepHistory::add_correction(const StepCoefficients &c, State &state)
+  void StepHistory::add_correction(State &state)
   {
+    const StepCoefficients &c = method.c;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &dU = shared[k];

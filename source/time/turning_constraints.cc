@@ -26,14 +26,15 @@ namespace taut
     }
   } // namespace
 
-  TurningConstraints::TurningConstraints(const Constraints &constraints, const Reference &reference)
-      : constraints(constraints), reference(reference)
+  TurningConstraints::TurningConstraints(const Constraints &constraints, const Reference &reference,
+                                         const StepMethod &method)
+      : constraints(constraints), reference(reference), method(method)
   {
   }
 
-  void TurningConstraints::prepare(const StepCoefficients &c) const
+  void TurningConstraints::check_method() const
   {
-    if (!empty() && c.mean_force && !c.velocity_projection)
+    if (!empty() && method.has_means() && !method.corrects_velocities)
       throw EntryError("Time/Moreau-Jean/Conditions",
                        "link '" + constraints[constraints.turning_rows().front()].name +
                            "' turns, and its length would drift with conditions on velocities. "
@@ -55,9 +56,8 @@ namespace taut
       next.push_back(constraints.turning(i).at(start[next.size()]));
   }
 
-  void TurningConstraints::begin(const StepCoefficients &c)
+  void TurningConstraints::begin()
   {
-    is_mean = c.mean_force;
     face_start();
     used = next;
     offsets.assign(start.size(), 0.);
@@ -72,6 +72,7 @@ namespace taut
     end.resize(motion.size());
     used = next;
     offsets = next_offsets;
+    const bool is_mean = method.has_means();
     double result = 0.;
     for (const std::size_t i : constraints.turning_rows())
     {
@@ -130,6 +131,6 @@ namespace taut
 
   double TurningConstraints::surplus(const std::size_t i, const double N, const double motion) const
   {
-    return is_mean ? 0. : N * (motion - increment(i));
+    return method.has_means() ? 0. : N * (motion - increment(i));
   }
 } // namespace taut

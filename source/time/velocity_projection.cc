@@ -59,26 +59,26 @@ namespace taut
   }
 
   /// Sets which constraints take part and their impulses. False if all rates satisfy conditions.
-  bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
+  bool VelocityProjection::has_to_act(const ContactStep &contacts, const State &state)
   {
     bool acts = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       takes_part[i] = 0;
-      p[i] = conditions.mean_force(i) ? step * state.multiplier[i] : 0.;
+      p[i] = contacts.is_mean(i) ? step * state.multiplier[i] : 0.;
       const bool is_spring = constraints[i].cone.is_free() && !constraints[i].spring.is_rigid();
-      if (!conditions.mean_force(i) || has_no_mass[i] || is_spring ||
+      if (!contacts.is_mean(i) || has_no_mass[i] || is_spring ||
           !constraints[i].cone.is_closed(p[i]) || !softening.takes_part(i))
         continue;
       takes_part[i] = 1;
-      if (conditions.remains_in_contact(i, state))
+      if (contacts.remains_in_contact(i, state))
         continue;
       acts = acts || std::fabs(state.gap_rate[i]) >
                          rounding_of_rates *
-                             (conditions.rates().velocity_sizes()[i] +
-                              std::fabs(state.gap_rate[i] - conditions.rates().velocities()[i]));
+                             (contacts.velocity_sizes()[i] +
+                              std::fabs(state.gap_rate[i] - contacts.velocities()[i]));
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
-                      conditions.rates().before_step()[i] < 0.);
+                      contacts.rates_before_step()[i] < 0.);
     }
     return acts;
   }
@@ -121,29 +121,28 @@ namespace taut
     }
   }
 
-  VelocityProjection::Residual VelocityProjection::project(const ContactConditions &conditions,
-                                                           GapRates &rates, State &state,
+  VelocityProjection::Residual VelocityProjection::project(ContactStep &contacts, State &state,
                                                            ComplementarityOperator &F)
   {
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    softening.follow(conditions.springs().compliance(), F,
+    softening.follow(contacts.compliance(), F,
                      masses.is_set_up() ? &masses.interface() : nullptr);
     if (some_quasi_static)
     {
       move_quasi_static(state);
-      rates.update(state);
+      contacts.update_rates(state);
     }
-    if (!has_to_act(conditions, state))
+    if (!has_to_act(contacts, state))
       return {};
     masses.update(state, softening);
-    problem.gap_scale = rates.velocity_sizes();
+    problem.gap_scale = contacts.velocity_sizes();
     set_problem(state);
-    solve(conditions, state);
-    return set_velocities(rates, state);
+    solve(contacts, state);
+    return set_velocities(contacts, state);
   }
 
   /// Solves for P - p.
-  void VelocityProjection::solve(const ContactConditions &conditions, const State &state)
+  void VelocityProjection::solve(const ContactStep &contacts, const State &state)
   {
     if (!is_linear)
       complementarity.begin_search();
@@ -157,9 +156,9 @@ namespace taut
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (takes_part[i] && constraints[i].cone.may_open() &&
-          conditions.rates().before_step()[i] < 0. && c.restitution > 0. && softening[i] == 0.)
+          contacts.rates_before_step()[i] < 0. && c.restitution > 0. && softening[i] == 0.)
       {
-        problem.free_gap[i] += c.restitution * conditions.rates().before_step()[i];
+        problem.free_gap[i] += c.restitution * contacts.rates_before_step()[i];
         rebounds = true;
       }
     if (!rebounds)
@@ -168,14 +167,14 @@ namespace taut
     find(difference);
     for (std::size_t i = 0; i < q.size(); ++i)
       difference[i] -= q[i];
-    add_largest_parts(conditions, state, difference);
+    add_largest_parts(contacts, state, difference);
   }
 
   /// Adds to q, for each group of connected bodies, the largest part s in [0, 1] of the impulses r
   /// = @p rebounding for which the contacts of the group give no energy. In a step they do the work
   /// p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, where q stands for q + s r.
   /// This is a convex parabola a s^2 + b s + c in s, not positive at s = 0.
-  void VelocityProjection::add_largest_parts(const ContactConditions &conditions,
+  void VelocityProjection::add_largest_parts(const ContactStep &contacts,
                                              const State &state,
                                              const std::vector<double> &rebounding)
   {
@@ -204,7 +203,7 @@ namespace taut
       own.b += rebounding[i] * (state.gap_rate[i] + of_plain[i]);
       own.c += q[i] * (state.gap_rate[i] + .5 * of_plain[i]);
       if (!constraints.slides(i))
-        own.c += p[i] * conditions.gaps().increments()[i] / step;
+        own.c += p[i] * contacts.increments()[i] / step;
     }
     const auto largest_part = [](const Work &of)
     {
@@ -239,20 +238,20 @@ namespace taut
     }
   }
 
-  VelocityProjection::Residual VelocityProjection::set_velocities(GapRates &rates, State &state)
+  VelocityProjection::Residual VelocityProjection::set_velocities(ContactStep &contacts, State &state)
   {
     for (std::vector<double> &v : dV)
       std::fill(v.begin(), v.end(), 0.);
     constraints.add_forces(q, dV);
     masses.solve(dV);
     change_velocities(state);
-    work_vector = rates.velocities();
-    rates.update(state);
+    work_vector = contacts.velocities();
+    contacts.update_rates(state);
     masses.interface().matrix().apply(q, change);
     Residual found;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      work_of_rows[i] = .5 * q[i] * (work_vector[i] + rates.velocities()[i]);
+      work_of_rows[i] = .5 * q[i] * (work_vector[i] + contacts.velocities()[i]);
       if (!takes_part[i])
         continue;
       const double expected = rate[i] + change[i] - softening[i] * q[i],

@@ -74,7 +74,7 @@ namespace
     {
       n += site.count;
       for (const std::string &caller : site.callers)
-        is_named = is_named || caller == "taut::TimeStepper::advance";
+        is_named = is_named || caller == "taut::Motion::try_step";
     }
     EXPECT_GE(n, run.total());
     EXPECT_TRUE(is_named);

@@ -18,10 +18,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = ROOT / "prm" / "en50318_2002_250.prm"
 # A part of the log, and the function that has it.
 PARTS = {
-    "places and moving rows": ("places of constraints|moving rows of F", "TimeStepper::begin_step"),
+    "places and moving rows": ("places of constraints|moving rows of F", "Motion::begin_step"),
     "loads and history": ("loads and history", "Step::set_loads"),
-    "free gaps": ("free gaps", "ContactConditions::set_problem"),
-    "contact problem": ("contact problem", "ContactConditions::find_multipliers"),
+    "free gaps": ("free gaps", "ContactStep::set_problem"),
+    "contact problem": ("contact problem", "ContactStep::find_multipliers"),
     "solve of bodies": ("solve of bodies", "StepEquations::find_increments"),
     "state and balance": ("state and balance", r"Step::accept\(taut::State&, taut::Certificate&\)"),
     "certificate": ("certificate", "Step::certify"),

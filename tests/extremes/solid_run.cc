@@ -201,9 +201,9 @@ namespace extremes
       }
       answer.steps.push_back(observe(view, c.dim, n_nodes));
       // What `automatic` takes, as the copy names it.
-      answer.scheme = !view.scheme.mean_force           ? "generalised-alpha"
-                      : view.scheme.velocity_projection ? "Moreau-Jean"
-                                                        : "Moreau-Jean of gaps";
+      answer.scheme = !view.report.method.has_means()          ? "generalised-alpha"
+                      : view.report.method.corrects_velocities ? "Moreau-Jean"
+                                                               : "Moreau-Jean of gaps";
       answer.conserving.clear();
       for (std::size_t k = 0; k < view.constraints.size(); ++k)
         answer.conserving.push_back(view.constraints[k].spring.conserving);

@@ -130,9 +130,8 @@ namespace hunt
     else
       for (std::size_t i = 0; i < m; ++i)
       {
-        const bool is_mean = !view.state.is_mean.empty() && view.state.is_mean[i];
         const double N = view.state.multiplier[i];
-        impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * view.state.last_step;
+        impulse[i] += (view.report.is_mean(i) ? N : .5 * (N + multiplier[i])) * view.state.last_step;
         multiplier[i] = N;
       }
     if (n_steps++ % stride != 0)

@@ -6,7 +6,7 @@
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/time_stepper.h>
+#include <taut/time/motion.h>
 
 using namespace verification;
 
@@ -32,23 +32,25 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3
                    const std::string &text = scene)
         : session(text)
     {
-      taut::Reference reference;
-      taut::State start;
+      taut::InitialState start;
       session.run(
           [&](const taut::StepView &view)
           {
             if (view.state.time > 0.)
               return;
-            reference = view.reference;
-            start = view.state;
+            start.reference = view.reference;
+            start.state = view.state;
           });
-      start.V[0][start.V[0].size() / 2] = velocity;
-      start.geometric_gap[0] += gap_error;
+      start.state.V[0][start.state.V[0].size() / 2] = velocity;
+      start.state.geometric_gap[0] += gap_error;
       constraints = std::make_unique<taut::Constraints>(
           taut::scene_constraints(session.simulation().scene(), structure()));
-      stepper = std::make_unique<taut::TimeStepper>(
-          structure(), *constraints, session.parameters().solver,
-          session.parameters().integrator("BDF2"), 1e-3, reference, start, false);
+      taut::StepperOptions options;
+      options.start = taut::Start::undeformed;
+      options.solver = session.parameters().solver;
+      own = std::make_unique<taut::Structure>(structure());
+      stepper = std::make_unique<taut::Motion>(*own, *constraints, options, start,
+                                               taut::make_integrator("BDF2"));
     }
 
     const taut::SceneBodies &structure() { return session.simulation().structure(); }
@@ -65,7 +67,8 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3
     }
 
     std::unique_ptr<taut::Constraints> constraints;
-    std::unique_ptr<taut::TimeStepper> stepper;
+    std::unique_ptr<taut::Structure> own; ///< shares the bodies
+    std::unique_ptr<taut::Motion> stepper;
 
   private:
     Session session;

@@ -5,31 +5,18 @@
 #include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
-#include <taut/time/time_stepper.h>
+#include <taut/time/motion.h>
 
 using namespace verification;
 
 namespace
 {
-  using Coefficients = std::function<taut::StepCoefficients(double, double)>;
-
-  /// A scheme by its coefficients.
-  struct Scheme : taut::TimeIntegrator
-  {
-    explicit Scheme(Coefficients c) : c(std::move(c)) {}
-    taut::StepCoefficients coefficients(const double step) const override { return c(step, step); }
-    taut::StepCoefficients after_change(const double step, const double last) const override
-    {
-      return c(step, last);
-    }
-    std::string description() const override { return "of the test"; }
-    const Coefficients c;
-  };
+  using Scheme = std::shared_ptr<const taut::TimeIntegrator>;
 
   Scheme gaps_then_velocities(const double restitution = 0.)
   {
-    return Scheme([restitution](const double step, double)
-                  { return taut::gaps_then_velocities(step, restitution); });
+    return taut::make_integrator("Moreau-Jean",
+                                 {{"Moreau-Jean/Restitution", number(restitution)}});
   }
 
   /// Masses on springs of random size and direction in one or two bodies, 2 to 40 DoFs, and 1 to 20
@@ -208,26 +195,30 @@ namespace
   /// Forty steps, one in eight of another length: 0.01 to 10 of the shortest period.
   Gain run(RandomProblem &problem, const Scheme &scheme)
   {
-    const taut::SceneBodies structure(problem.scene);
+    taut::SceneBodies structure(problem.scene);
     taut::Constraints constraints = taut::scene_constraints(problem.scene, structure);
     const double period = shortest_period(structure);
     const auto new_step = [&] { return period * problem.logarithmic(.01, 10.); };
-    taut::Reference reference;
-    reference.displacement = reference.force = structure.zero();
-    taut::TimeStepper stepper(structure, constraints, taut::SolverParameters(), scheme, new_step(),
-                              reference, start_of(structure, constraints), false);
-    const double first = energy(structure, constraints, stepper.state());
+    taut::InitialState start;
+    start.reference.displacement = start.reference.force = structure.zero();
+    start.state = start_of(structure, constraints);
+    taut::StepperOptions options;
+    double step = options.step = new_step();
+    options.start = taut::Start::undeformed;
+    options.allow_unsuitable_scheme = true;
+    taut::Motion motion(structure, constraints, options, start, scheme);
+    const double first = energy(structure, constraints, motion.state());
     Gain gain;
     double before = first;
     for (int i = 0; i < 40; ++i)
     {
       if (i > 0 && problem.index(8) == 0)
-        stepper.set_step(new_step());
-      stepper.advance();
-      const double now = energy(structure, constraints, stepper.state());
+        step = new_step();
+      motion.try_step(step);
+      const double now = energy(structure, constraints, motion.state());
       gain.largest = std::max(gain.largest, (now - before) / first);
       before = now;
-      const std::vector<double> rates = constraints.motions(stepper.state().V);
+      const std::vector<double> rates = constraints.motions(motion.state().V);
       for (std::size_t r = 0; r < constraints.size(); ++r)
         if (constraints[r].cone.is_free())
           raise(gain.projected, rates[r]);
@@ -280,9 +271,7 @@ TEST(ContactEnergy, no_rigid_problem_gains_with_gaps_then_velocities)
 TEST(ContactEnergy, many_rigid_problems_gain_with_bdf2)
 {
   const Result result =
-      run_many(1000, 1e-6,
-               [](unsigned int)
-               { return Scheme([](double step, double last) { return taut::bdf2(step, last); }); });
+      run_many(1000, 1e-6, [](unsigned int) { return taut::make_integrator("BDF2"); });
   EXPECT_GT(figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained), 300);
   EXPECT_GT(figure("1000 rigid problems, BDF2: largest gain in a step over the first energy",
                    result.largest),

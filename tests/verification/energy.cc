@@ -159,7 +159,7 @@ TEST(Energy, a_support_with_a_constant_displacement_stands)
       if (result.height.empty())
         result.first = y + displacement(view, 0, 10.);
       result.height.push_back(at);
-      for (const double gain : view.state.energy_gains)
+      for (const double gain : view.report.gains)
         result.gain.push_back(gain);
     };
     run_scene("Gravity = 0, 0; Start = " + start + "\nWire line: From = 0, " + number(y) +

@@ -7,7 +7,7 @@
 #include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
-#include <taut/time/time_stepper.h>
+#include <taut/time/motion.h>
 
 using namespace verification;
 
@@ -283,9 +283,15 @@ TEST(Rest, nothing_moves_in_2000_steps_and_a_shorter_step_creates_no_force)
 
     taut::Constraints constraints =
         taut::scene_constraints(session.simulation().scene(), session.simulation().structure());
-    taut::TimeStepper stepper(session.simulation().structure(), constraints,
-                              session.parameters().solver, session.parameters().integrator(scheme),
-                              1e-5, *reference, last, true);
+    taut::Structure structure = session.simulation().structure();
+    taut::InitialState start;
+    start.reference = *reference;
+    start.state = last;
+    taut::StepperOptions options;
+    options.step = 1e-5;
+    options.solver = session.parameters().solver;
+    taut::Motion stepper(structure, constraints, options, start,
+                         {std::shared_ptr<void>(), &session.parameters().integrator(scheme)});
     double step_change = 0.;
     for (int i = 0; i < 300; ++i)
     {

@@ -32,7 +32,7 @@ TEST(TurningBodies, bar_pulls_cable_and_weight)
         const double N = view.state.multiplier[view.constraints.index_of_link(0)];
         opens = opens || (view.state.time > 0. && N == 0.);
         closes = closes || N > 0.;
-        gain = std::max(gain, view.certificate.energy_gain);
+        gain = std::max(gain, view.report.gain());
         const std::vector<Coordinates> ends =
             view.constraints.differences(view.reference.displacement, view.state.U);
         rod = std::max(rod, std::fabs(norm(ends[1]) - 1.1));

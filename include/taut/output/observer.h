@@ -10,9 +10,9 @@
 #include <taut/output/named_quantity.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
-#include <taut/time/integrator.h>
 #include <taut/time/state.h>
 #include <taut/time/step_costs.h>
+#include <taut/time/step_report.h>
 
 #include <iosfwd>
 #include <string>
@@ -35,8 +35,8 @@ namespace taut
     const State &state;
     const Certificate &certificate;
 
-    /// Scheme of the step, and measures of the contacts until its end.
-    const StepCoefficients &scheme;
+    /// What the step tells, and measures of the contacts until its end.
+    const StepReport &report;
     const ContactMeasures &measures;
 
     /// Displacement of each probe from the equilibrium without sliding contacts if the run starts

@@ -4,7 +4,7 @@
 
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/time/integrator.h>
+#include <taut/time/step_report.h>
 #include <taut/time/state.h>
 
 #include <string>
@@ -37,10 +37,10 @@ namespace taut
     /// @p scene and @p structure are kept by reference.
     Reactions(const Scene &scene, const SceneBodies &structure);
 
-    /// Updates forces for a state with a known balance: an accepted step of @p scheme. Called by
+    /// Updates forces for a state with a known balance: an accepted step, and what it told. Called by
     /// all ranks together.
     void update(const Reference &reference, const State &state, const Constraints &constraints,
-                const StepCoefficients &scheme);
+                const StepReport &report);
 
     /// Updates forces for the start, without a known balance. Called by all ranks together.
     void update_start(const Reference &reference, State state, const Constraints &constraints);

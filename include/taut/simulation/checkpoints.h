@@ -13,7 +13,7 @@
 namespace taut
 {
   class ObservedRun;
-  class SteppedMotion;
+  class Motion;
   struct Checkpoint;
 
   /// Stores a run at intervals, so that a killed run continues from there with the same bits. Each

@@ -40,7 +40,7 @@ namespace taut
     ObservedRun(Stepper &stepper, const std::string &folder, double interval = 0.);
 
     /// For a scene, at its start; the references are kept. The folder is not made.
-    ObservedRun(SteppedMotion &motion, const Scene &scene, const SceneBodies &structure,
+    ObservedRun(Motion &motion, const Scene &scene, const SceneBodies &structure,
                 const std::string &folder, double interval);
 
     /// Adds a probe before the observers with a column for it: displacement or rotation of a form,
@@ -101,8 +101,8 @@ namespace taut
     const Scene &scene() const { return named; }
     const SceneBodies &structure() const { return bodies; }
     const Constraints &constraints() const { return motion.links(); }
-    const SteppedMotion &stepped() const { return motion; }
-    SteppedMotion &stepped() { return motion; }
+    const Motion &stepped() const { return motion; }
+    Motion &stepped() { return motion; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -117,7 +117,7 @@ namespace taut
 
     const std::unique_ptr<Scene> own_scene; ///< of a System
     const std::unique_ptr<SceneBodies> own_bodies;
-    SteppedMotion &motion;
+    Motion &motion;
     const Scene &named;
     const SceneBodies &bodies;
     const std::string folder;

@@ -27,7 +27,7 @@ namespace taut
   void check_results_folder(const Parameters &parameters,
                             const Communicator &processes = Communicator());
 
-  /// A run of a scene: builds bodies and constraints from a parameter file, a SteppedMotion of
+  /// A run of a scene: builds bodies and constraints from a parameter file, a Motion of
   /// these, and an ObservedRun with the observers that write the results.
   class Simulation
   {
@@ -115,7 +115,7 @@ namespace taut
     std::function<int()> stop_asked;
 
     // Of a run.
-    std::unique_ptr<SteppedMotion> motion;
+    std::unique_ptr<Motion> motion;
     std::unique_ptr<ObservedRun> observed;
     BodyVectors rest;                             ///< see find_rest() [m, rad]
     std::map<std::string, double> forces_at_rest; ///< of the links [N, N m]

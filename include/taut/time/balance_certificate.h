@@ -3,10 +3,10 @@
 #define taut_balance_certificate_h
 
 #include <taut/interface/constraints.h>
-#include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 #include <taut/time/state.h>
+#include <taut/time/step_method.h>
 
 #include <functional>
 #include <string>
@@ -35,7 +35,8 @@ namespace taut
   public:
     /// The arguments are kept by reference.
     BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                       const Reference &reference, const NonlinearBodies &nonlinear);
+                       const Reference &reference, const StepMethod &method,
+                       const NonlinearBodies &nonlinear);
 
     /// Sets displacement, velocity and acceleration of body k in rows begin to end - 1.
     using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
@@ -43,13 +44,11 @@ namespace taut
     /**
      * Forms K U and r = P + B N - C V - K U of the state after a step, and the residual() of its
      * equation of motion. @p in_balance are the multipliers in r. @p impulsive are the forces that
-     * act in this step only; empty: none. Zero coefficients stand for an equilibrium at rest.
-     * @p set_rows, if given, sets rows just before their first use, so that both share the cache.
+     * act in this step only; empty: none. @p set_rows, if given, sets rows just before their first use, so that both share the cache.
      * Throws an EntryError on the section of a body with numbers beyond largest_number.
      */
-    void measure(const StepCoefficients &c, const StepForces &forces,
-                 const std::vector<double> &in_balance, const std::vector<double> &impulsive,
-                 State &state, const SetRows &set_rows = {});
+    void measure(const StepForces &forces, const std::vector<double> &in_balance,
+                 const std::vector<double> &impulsive, State &state, const SetRows &set_rows = {});
 
     /// Largest relative residual of this rank's bodies after measure(); not-a-number if one is.
     double residual() const { return largest_residual; }
@@ -72,13 +71,14 @@ namespace taut
               displacement = {0., 0.};
     };
 
-    Sizes measure_body(std::size_t k, const StepCoefficients &c, const StepForces &forces,
-                       bool has_impulses, State &state, const SetRows &set_rows);
-    double relative_residual(std::size_t k, const StepCoefficients &c, const StepForces &forces,
-                             const Sizes &sizes, double time);
+    Sizes measure_body(std::size_t k, const StepForces &forces, bool has_impulses, State &state,
+                       const SetRows &set_rows);
+    double relative_residual(std::size_t k, const StepForces &forces, const Sizes &sizes,
+                             double time);
 
     const Structure &structure;
     const Constraints &constraints;
+    const StepMethod &method;
     const NonlinearBodies &nonlinear;
     std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;       ///< largest entry, of each body [N, N m]

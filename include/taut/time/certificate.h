@@ -25,13 +25,6 @@ namespace taut
     /// position may drift [m, rad].
     double drift = 0.;
 
-    /// Kinetic energy of all bodies at the end of the step; schemes with mean forces and conditions
-    /// on gaps only [J].
-    double kinetic_energy = 0.;
-
-    /// Energy that the system gained in such a step, but not from loads or moving constraints [J].
-    double energy_gain = 0.;
-
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the solver's other method finished the step
 
@@ -39,7 +32,7 @@ namespace taut
     void serialize(Archive &archive, unsigned int)
     {
       archive &complementarity &worst_constraint &balance &worst_body &drift;
-      archive &kinetic_energy &energy_gain &iterations &fallback;
+      archive &iterations &fallback;
     }
 
     /// The larger residual; not-a-number if one is.

@@ -45,7 +45,7 @@ namespace taut
                     const SolverParameters &parameters, double step);
 
   /// Throws an EntryError if a scheme projects velocities and a mass matrix has no inverse.
-  void check_mass(const TimeIntegrator &integrator, const Structure &structure, double step);
+  void check_mass(const TimeIntegrator &integrator, const Structure &structure);
 } // namespace taut
 
 #endif

@@ -5,10 +5,10 @@
 #include <taut/base/archive_forward.h>
 #include <taut/base/warning.h>
 #include <taut/interface/constraints.h>
-#include <taut/time/integrator.h>
 #include <taut/time/link_energies.h>
 #include <taut/time/motion_record.h>
 #include <taut/time/state.h>
+#include <taut/time/step_report.h>
 
 #include <cstddef>
 #include <string>
@@ -22,7 +22,7 @@ namespace taut
    *
    * Contact energy: the energy that a constraint gave or took beyond its spring and damper, see
    * LinkEnergies, over the energy of its group of connected bodies. If rigid constraints have mean
-   * forces and conditions on gaps, unexplained gains of the group (State::energy_gains) count, too.
+   * forces and conditions on gaps, unexplained gains of the group (StepReport::gains) count, too.
    *
    * Momentum: the momentum error of a body after a contact with a wrong energy, over the largest
    * impulse of its group in the time of such an error.
@@ -51,9 +51,9 @@ namespace taut
       is_adaptive = adaptive;
     }
 
-    /// Records an accepted step with its coefficients, and the external forces @p P at its end
-    /// minus those of the reference. Called by all ranks together.
-    void record(const State &state, const StepCoefficients &c, const BodyVectors &P);
+    /// Records an accepted step, and the external forces @p P at its end minus those of the
+    /// reference. Called by all ranks together.
+    void record(const State &state, const StepReport &report, const BodyVectors &P);
 
     /// Measures so far, for checkpoints.
     void save(OutputArchive &archive);
@@ -147,12 +147,12 @@ namespace taut
     void store(Archive &archive);
     void add_force(Force &force, double t, double dt, double value);
     static void forget_past(Force &force);
-    void add_gains(const State &state, const StepCoefficients &c);
+    void add_gains(const StepReport &report);
     void find_contact_energy(Summary &result) const;
     void find_momentum(Summary &result) const;
     std::string energy_message(const Summary &s) const;
     std::string remedy() const;
-    void add_gap(std::size_t i, const State &state, const StepCoefficients &c);
+    void add_gap(std::size_t i, const State &state, const StepReport &report);
     void add_wire_end(std::size_t i, const State &state);
     void measure_rest(const State &start);
     std::vector<double> resolved_times() const;

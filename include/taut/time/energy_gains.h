@@ -4,8 +4,8 @@
 
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/balance_certificate.h>
-#include <taut/time/contact_conditions.h>
-#include <taut/time/nonlinear_bodies.h>
+#include <taut/time/contact_step.h>
+#include <taut/time/nonlinear_step.h>
 
 #include <vector>
 
@@ -18,11 +18,10 @@ namespace taut
   public:
     /// The arguments are kept by reference.
     EnergyGains(const Structure &structure, const Constraints &constraints,
-                NonlinearBodies &nonlinear, const ContactConditions &conditions,
-                const TurningConstraints &turning);
+                NonlinearStep &nonlinear, const ContactStep &contacts);
 
-    /// Stores the kinetic energies of the groups at the start in the state.
-    void start(State &state);
+    /// Begins from a state.
+    void start(const State &state);
 
     /**
      * With mean forces: the change of the kinetic energy of each group, minus the work of all
@@ -31,26 +30,29 @@ namespace taut
      * as it would need the work of their forces. Nonlinear bodies count with their own energy, so
      * that a wrong mean force shows. @p balance is that of the step.
      */
-    void measure(const BalanceCertificate &balance, State &state, Certificate &certificate);
+    void measure(const BalanceCertificate &balance, const State &state, StepReport &report);
 
     /// Gains with backward Euler and forces at the ends of steps. A body with a non-convex energy
     /// gains more than the work of its forces at the end of the step. The scheme dissipates the
     /// kinetic energy of the change of velocity. The gain of a group is the difference.
-    void measure_at_ends(State &state, Certificate &certificate);
+    void measure_at_ends(const State &state, StepReport &report);
+
+    /// Kinetic energy of each group at the end of the last step of measure(), or at the start [J].
+    const std::vector<double> &kinetic_energies() const { return kinetic; }
+    void set_kinetic_energies(const std::vector<double> &of_groups) { kinetic = of_groups; }
 
   private:
     void add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups);
     void add_surplus(double theta, const State &state, double *of_groups);
-    double gain_of_spring(std::size_t i, const State &state) const;
+    double gain_of_spring(std::size_t i, const State &state, const StepReport &report) const;
 
     const Structure &structure;
     const Constraints &constraints;
-    NonlinearBodies &nonlinear;
-    const ContactConditions &conditions;
-    const TurningConstraints &turning;
+    NonlinearStep &nonlinear;
+    const ContactStep &contacts;
     const ConnectedBodies groups;
     bool supports_move = false; ///< of any rank
-    std::vector<double> sums, product;
+    std::vector<double> kinetic, sums, product;
   };
 } // namespace taut
 

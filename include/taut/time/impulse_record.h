@@ -4,6 +4,7 @@
 
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/state.h>
+#include <taut/time/step_report.h>
 
 #include <cstddef>
 #include <utility>
@@ -20,7 +21,7 @@ namespace taut
     explicit ImpulseRecord(const State &start);
 
     /// Records an accepted step.
-    void record(const State &state);
+    void record(const State &state, const StepReport &report);
 
     /**
      * The largest difference from the other impulses, and its constraint; -1: nothing differs. The

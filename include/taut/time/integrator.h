@@ -27,11 +27,7 @@ namespace taut
    *
    *     M [(1 - alpha_m) A + alpha_m A0] = (1 - alpha_f) r + alpha_f r0.
    *
-   * Old and new contact forces thus act with their own B, and conditions on gaps hold at the end of
-   * the step. With mean forces, rigid constraints have impulses over the step instead, without a
-   * past; their conditions may be on velocities after the step, see ContactConditions. With a
-   * velocity projection, elastic unilateral constraints have mean forces, too, and impulses correct
-   * the velocities at the end of the step, see VelocityProjection.
+   * Old and new contact forces thus act with their own B, unless a RowRule asks for a mean force.
    */
   struct StepCoefficients
   {
@@ -40,10 +36,7 @@ namespace taut
     double v_V = 0., v_A = 0., v_dU = 0.;               ///< [1, s, 1/s]
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.; ///< [1/s, 1, 1/s^2, 1/s]
     double alpha_m = 0., alpha_f = 0.;                  ///< weights of the old step [1]
-    bool mean_force = false;     ///< of rigid constraints; bilateral ones are at velocity level
-    bool velocity_level = false; ///< of rigid unilateral conditions; needs mean_force
-    bool velocity_projection = false; ///< after conditions on gaps; needs mean_force
-    double restitution = 0.;          ///< Newton's coefficient, for unilateral constraints [1]
+    double restitution = 0.; ///< Newton's coefficient, for unilateral constraints [1]
 
     /// Weights of M A, M A0 and r0 in the equation of motion after division by 1 - alpha_f [1].
     double new_inertia() const { return (1. - alpha_m) / (1. - alpha_f); }
@@ -60,7 +53,7 @@ namespace taut
     bool is_backward_euler() const
     {
       return v_V == 0. && v_A == 0. && a_A == 0. && alpha_m == 0. && alpha_f == 0. &&
-             !looks_back() && !mean_force && !is_at_rest();
+             !looks_back() && !is_at_rest();
     }
 
     /// True if velocity or acceleration need more of the past than V0 and A0.
@@ -83,14 +76,59 @@ namespace taut
     void serialize(Archive &archive, unsigned int)
     {
       archive &velocity &acceleration &v_V &v_A &v_dU &a_V &a_A &a_dU &a_V_old;
-      archive &alpha_m &alpha_f &mean_force &velocity_level &velocity_projection &restitution;
+      archive &alpha_m &alpha_f &restitution;
     }
 
     bool operator==(const StepCoefficients &other) const;
     bool operator!=(const StepCoefficients &other) const { return !(*this == other); }
   };
 
-  /// A time integration scheme, chosen by name.
+  /// When a force of a step acts: at the end of the step, or as a mean over it.
+  enum class ForceTime : char
+  {
+    end,
+    mean
+  };
+
+  /// What a scheme asks of one constraint in a step. Rows stand for constraints, see
+  /// ContactStep for the equations.
+  struct RowRule
+  {
+    enum class Condition : char
+    {
+      gap,     ///< 0 <= D at the end of the step
+      velocity ///< 0 <= D' + e D'_0 of a constraint that touches
+    };
+    Condition condition = Condition::gap;
+
+    /// A mean force has no past: it is an impulse that acts in this step alone.
+    ForceTime force = ForceTime::end;
+
+    /// Impulses correct the velocity after the step, see VelocityProjection; for mean forces and
+    /// conditions on gaps only.
+    bool corrected = false;
+
+    /// For Boost's archives.
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &condition &force &corrected;
+    }
+
+    bool is_mean() const { return force == ForceTime::mean; }
+    bool is_on_velocity() const { return condition == Condition::velocity; }
+  };
+
+  /// What rules of rows depend on.
+  struct RowTraits
+  {
+    bool is_rigid = true, may_open = true;
+    bool turns = false;
+    bool is_quasi_static = false; ///< acts on DoFs without mass and damping
+  };
+
+  /// A time integration scheme, chosen by name. Derive from it and register the class for a new
+  /// scheme: its coefficients say how bodies move, its rules what it asks of constraints.
   class TimeIntegrator
   {
   public:
@@ -109,6 +147,14 @@ namespace taut
       (void)last_step;
       return coefficients(step);
     }
+
+    /// What the scheme asks of a row.
+    virtual RowRule rule(const RowTraits &) const { return {}; }
+
+    /// Internal forces of bodies that are not linear, and directions of constraints that turn: those
+    /// at the end of the step, or the means of an energy-momentum scheme. A scheme with rules for
+    /// mean forces asks for means.
+    virtual ForceTime internal_forces() const { return ForceTime::end; }
 
     /// Frequency of free undamped vibrations above which a step of this length [s] is unstable
     /// [rad/s]; infinite for an unconditionally stable scheme.
@@ -157,24 +203,11 @@ namespace taut
 
   /**
    * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and
-   * U = U0 + step [theta V + (1 - theta) V0]. The impulses p of rigid constraints satisfy
-   * complementarity at velocity level with Newton's restitution e in [0, 1]. @p theta in [1/2, 1].
-   * M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999).
+   * U = U0 + step [theta V + (1 - theta) V0], with impulses p of constraints with mean forces and
+   * Newton's @p restitution in [0, 1]. @p theta in [1/2, 1]. M. Jean, Comput. Methods Appl. Mech.
+   * Engrg. 177 (1999).
    */
   StepCoefficients moreau_jean(double step, double theta, double restitution);
-
-  /// The theta method with conditions on the gaps of unilateral constraints at the end of the step.
-  /// A mean force N does the work N (D - D_0) = -N D_0 <= 0 there: it never adds energy.
-  StepCoefficients moreau_jean_of_gaps(double step, double theta);
-
-  /**
-   * The theta method at theta = 1/2 with conditions on gaps, followed by a velocity projection:
-   * constraints hold for gaps and for velocities at the end of each step, as in nonsmooth schemes
-   * on both levels (C. W. Gear, B. Leimkuhler, G. K. Gupta, J. Comput. Appl. Math. 12-13 (1985); O.
-   * Brüls, V. Acary, A. Cardona, Comput. Methods Appl. Mech. Engrg. 281 (2014)). Second order for
-   * smooth motions; fixed rigid constraints never add energy. @p restitution is Newton's [1].
-   */
-  StepCoefficients gaps_then_velocities(double step, double restitution);
 } // namespace taut
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <taut/base/archive_forward.h>
 #include <taut/interface/connected_bodies.h>
-#include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/step_report.h>
 
 #include <limits>
 #include <vector>
@@ -34,8 +34,8 @@ namespace taut
     LinkEnergies(const Structure &structure, const Constraints &constraints,
                  const Reference &reference, const State &start);
 
-    /// Records an accepted step with its coefficients.
-    void record(const State &state, const StepCoefficients &c);
+    /// Records an accepted step.
+    void record(const State &state, const StepReport &report);
 
     /// Measures the energies of the scale. @p P are the external forces of the state minus those of
     /// the reference; empty: no step led here. Called by all ranks together.
@@ -111,7 +111,7 @@ namespace taut
     };
     template <typename Archive>
     void store(Archive &archive);
-    double gain(std::size_t i, const State &state, const StepCoefficients &c) const;
+    double gain(std::size_t i, const State &state, const StepReport &report) const;
     static void add_contact(Account &account, const Row &row, double end);
     void measure_rest(const State &start);
     double energy_of_loads(std::size_t k, const std::vector<double> &P, double step) const;

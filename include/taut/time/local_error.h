@@ -3,9 +3,9 @@
 #define taut_local_error_h
 
 #include <taut/interface/connected_bodies.h>
-#include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/state.h>
+#include <taut/time/step_method.h>
 
 #include <vector>
 
@@ -29,9 +29,9 @@ namespace taut
     LocalError(const Structure &structure, const Constraints &constraints,
                const Reference &reference);
 
-    /// Local error of the step with coefficients @p c to @p state, after a step of @p step_before
-    /// [s] with final accelerations @p old_A. Called by all ranks together.
-    double measure(const State &state, const StepCoefficients &c, double step_before,
+    /// Local error of a step to @p state, after a step of @p step_before [s] with final accelerations
+    /// @p old_A. Called by all ranks together.
+    double measure(const State &state, const StepMethod &method, double step_before,
                    const BodyVectors &old_A);
 
     /// Largest displacements so far, which persist between steps [m, rad].
@@ -41,7 +41,7 @@ namespace taut
     struct OfStep
     {
       const State &state;
-      const StepCoefficients &c;
+      const StepMethod &method;
       double step_before;
       const BodyVectors &old_A;
     };

@@ -49,7 +49,7 @@ namespace taut
                  double interval, std::size_t n);
 
     /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
-    void record(const State &state);
+    void record(const State &state, const StepReport &report);
 
     std::size_t n_samples() const { return n_recorded; }
 

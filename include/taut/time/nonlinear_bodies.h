@@ -3,10 +3,10 @@
 #define taut_nonlinear_bodies_h
 
 #include <taut/substructure/factored_structure.h>
-#include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/prescribed_motions.h>
 #include <taut/time/state.h>
+#include <taut/time/step_method.h>
 
 #include <array>
 #include <memory>
@@ -31,16 +31,15 @@ namespace taut
   class NonlinearBodies
   {
   public:
-    NonlinearBodies() = default;
-
     /// The arguments are kept by reference.
-    NonlinearBodies(const Structure &structure, const Reference &reference);
+    NonlinearBodies(const Structure &structure, const Reference &reference,
+                    const StepMethod &method);
 
     /// Indices of the nonlinear bodies among the bodies of this rank.
     const std::vector<std::size_t> &indices() const { return bodies; }
 
-    /// Begins a step [s] from a state. The first guess of its increments is zero.
-    void begin(const State &before, const StepCoefficients &c, double step);
+    /// Begins a step from a state. The first guess of its increments is zero.
+    void begin(const State &before);
 
     /// After begin(): sets the known velocities of DoFs with prescribed motions.
     void prescribe(const PrescribedMotions &motions);
@@ -64,7 +63,7 @@ namespace taut
     double set_guess(std::size_t k, const std::vector<double> &dU, const SymmetricMatrix &K);
 
     /// Sets KU = f - f_ref at the end of a step with the end @p state.
-    void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
+    void set_end_force(std::size_t k, State &state) const;
 
     /// Change of the energy of body k of indices() in the step to @p state, minus the work of its
     /// force: @p part_of_end of that at the end, the rest at the start. At 1/2 it is zero if the
@@ -90,16 +89,15 @@ namespace taut
     };
     const std::vector<double> &end_of_step(std::size_t k, const State &state);
     /// Sets end_U and end_V, those of the increments @p dU.
-    void set_end(const Step &own, const std::vector<double> &dU, const StepCoefficients &c) const;
-    void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
-                   const std::vector<double> &dU, std::vector<double> &f) const;
+    void set_end(const Step &own, const std::vector<double> &dU) const;
+    void end_force(std::size_t k, const Step &own, const std::vector<double> &dU,
+                   std::vector<double> &f) const;
 
-    const Structure *structure = nullptr;
-    const Reference *reference = nullptr;
+    const Structure &structure;
+    const Reference &reference;
+    const StepMethod &method;
     std::vector<std::size_t> bodies;
     std::vector<Step> steps; ///< for each body of this rank, linear or not
-    StepCoefficients c;
-    double step = 0.;
     std::vector<double> last_dU, last_remainder, own_force;
     std::array<std::vector<double>, 3> tile;  ///< rows in set_guess()
     mutable std::vector<double> end_U, end_V; ///< see set_end()

@@ -17,15 +17,16 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    NonlinearStep(const Structure &structure, Constraints &constraints, const Reference &reference);
+    NonlinearStep(const Structure &structure, Constraints &constraints, const Reference &reference,
+                  const StepMethod &method);
 
     /// True if all bodies of all ranks are linear and no constraint turns: there is nothing to
     /// search for.
     bool is_linear() const { return bodies_are_linear && turning.empty(); }
 
-    /// For steps of length @p step [s] with these coefficients, from @p state on. Throws EntryError
-    /// for a scheme that does not suit constraints that turn.
-    void prepare(const StepCoefficients &c, double step, const State &state);
+    /// After a change of the method, for steps from @p state on. Throws EntryError for a scheme that
+    /// does not suit constraints that turn.
+    void prepare(const State &state);
 
     /// Takes the directions of the constraints from a state.
     void follow(const State &state);
@@ -56,12 +57,11 @@ namespace taut
 
     const Structure &structure;
     Constraints &constraint_set;
+    const StepMethod &method;
     NonlinearBodies nonlinear;
     TurningConstraints turning;
     bool bodies_are_linear;         ///< of all ranks
     bool tangents_are_kept = false; ///< from step to step
-    StepCoefficients c;
-    double length = 0.; ///< of a step [s]
     long iterations = 0;
     BodyVectors loads;              ///< P^ of the step, without remainders
     std::vector<double> multiplier; ///< before the step

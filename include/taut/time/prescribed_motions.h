@@ -3,8 +3,8 @@
 #define taut_prescribed_motions_h
 
 #include <taut/substructure/structure.h>
-#include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/step_method.h>
 
 #include <algorithm>
 #include <vector>
@@ -31,14 +31,15 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    PrescribedMotions(const Structure &structure, const Reference &reference);
+    PrescribedMotions(const Structure &structure, const Reference &reference,
+                      const StepMethod &method);
 
     /// Before the time of the state changes: length of the step that ended there [s]; 0: none.
     void begin_step(const double step_before) { before = step_before; }
 
     /// Sets increments, velocities and accelerations for a step from the displacements of @p state
     /// to its time, of its length. At rest, increments alone.
-    void set(const StepCoefficients &c, const State &state);
+    void set(const State &state);
 
     /// Increments of body k; zero for other DoFs [m, rad].
     const std::vector<double> &increments(const std::size_t k) const { return dU[k]; }
@@ -80,10 +81,11 @@ namespace taut
       unsigned int dof = 0;
       double mean_v = 0., v = 0., a = 0.;
     };
-    void set_rates(std::size_t k, Moving &one, const StepCoefficients &c, const State &state);
+    void set_rates(std::size_t k, Moving &one, const State &state);
 
     const Structure &structure;
     const Reference &reference;
+    const StepMethod &method;
     std::vector<std::vector<Moving>> moving; ///< of each body, sorted
     BodyVectors dU, rate_lift;
     std::vector<char> body_lifts;

@@ -22,33 +22,16 @@ namespace taut
     std::vector<double> gap;
   };
 
-  /// The part of a State that is equal on all ranks.
-  struct SharedState
+  /// What the rows of the constraints have at one time, equal on all ranks.
+  struct RowStates
   {
-    double time = 0.;      ///< [s]
-    double last_step = 0.; ///< length of the step that ended here; 0: none [s]
-
     std::vector<double> multiplier;    ///< N, or its mean over the step [N, N m]
     std::vector<double> gap;           ///< D of the complementarity conditions [m, rad]
     std::vector<double> geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: the spring is
                                        ///< compressed [m, rad]
+    std::vector<double> gap_rate;      ///< D', only with mean forces [m/s, rad/s]
 
-    std::vector<double> gap_rate; ///< D', only with mean forces [m/s, rad/s]
-
-    /// With mean forces and conditions on gaps only: kinetic energy of each group of connected
-    /// bodies, and its gain in the step beyond loads and moving constraints [J].
-    std::vector<double> kinetic_energies, energy_gains;
-
-    /// With mean forces, otherwise empty: not 0 for a constraint whose multiplier is a mean over
-    /// the last step. Then the work of its forces on the bodies, without the forces of a moving
-    /// constraint in its old place [J].
-    std::vector<char> is_mean;
-    std::vector<double> constraint_work;
-
-    /// Work of the impulses of a velocity projection, a part of that work [J].
-    double impulse_work = 0.;
-
-    /// Compression of each link's spring and its rates, integrated in time as a body [m, rad].
+    /// Compression of each row's spring and its rates, integrated in time as a body [m, rad].
     struct LinkSpring
     {
       double u = 0., v = 0., a = 0., du = 0.;
@@ -64,15 +47,16 @@ namespace taut
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &time &last_step &multiplier &gap &geometric_gap &gap_rate;
-      archive &kinetic_energies &energy_gains;
-      archive &is_mean &constraint_work &impulse_work &link_springs;
+      archive &multiplier &gap &geometric_gap &gap_rate &link_springs;
     }
   };
 
-  /// Motion of the bodies and of the links' springs at one time.
-  struct State : SharedState
+  /// Motion of the bodies and the rows at one time.
+  struct State : RowStates
   {
+    double time = 0.;      ///< [s]
+    double last_step = 0.; ///< length of the step that ended here; 0: none [s]
+
     BodyVectors U;     ///< displacement from the reference [m, rad]
     BodyVectors V;     ///< velocity [m/s, rad/s]
     BodyVectors A;     ///< acceleration [m/s^2, rad/s^2]
@@ -81,6 +65,14 @@ namespace taut
     BodyVectors KU;    ///< K U [N, N m]
     /// P + B N - C V - K (U_ref + U), without mean forces [N, N m].
     BodyVectors balance;
+
+    /// For Boost's archives: what is equal on all ranks.
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int version)
+    {
+      archive &time &last_step;
+      RowStates::serialize(archive, version);
+    }
 
     /// The vectors of the bodies of this rank.
     std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }

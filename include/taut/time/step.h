@@ -4,7 +4,7 @@
 
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
-#include <taut/time/contact_conditions.h>
+#include <taut/time/contact_step.h>
 #include <taut/time/step_check.h>
 #include <taut/time/step_costs.h>
 #include <taut/time/step_equations.h>
@@ -19,13 +19,13 @@ namespace taut
    * One step of all bodies and constraints, in time or at rest:
    *
    *     set_loads()        P^_k                               StepHistory
-   *     find_increments()  N, and A_k dU_k = P^_k + B_k N     ContactConditions, StepEquations
-   *     accept()           U, V, A, r, and gaps               StepHistory, ContactConditions
-   *     certify()          residuals of both, once more       BalanceCertificate, ContactConditions
+   *     find_increments()  N, and A_k dU_k = P^_k + B_k N     ContactStep, StepEquations
+   *     accept()           U, V, A, r, and gaps               StepHistory, ContactStep
+   *     certify()          residuals of both, once more       BalanceCertificate, ContactStep
    *                        with the residual if it is large
    *
-   * TimeStepper takes steps in time, with the weights of a scheme. StaticStep takes steps of a
-   * search of an equilibrium, with A = K. All functions with a state are called by all ranks
+   * Motion takes steps in time, by the method of a scheme. StaticStep takes steps of a search of an
+   * equilibrium, with A = K. All functions with a state are called by all ranks
    * together.
    */
   class Step
@@ -34,12 +34,12 @@ namespace taut
     /// All but @p start are kept by reference. @p bodies and @p turning are empty, or follow the
     /// guesses of Newton's method.
     Step(const Structure &structure, const Constraints &constraints,
-         const SolverParameters &parameters, const Reference &reference,
+         const SolverParameters &parameters, const Reference &reference, const StepMethod &method,
          const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start);
 
-    /// For steps with these coefficients and this length [s]: factors A, and sets F up. A linear
-    /// system keeps both for the coefficients of the last calls, see most_kept() in the source.
-    void prepare(const StepCoefficients &c, double length);
+    /// After a change of the method: factors A, and sets F up. A linear system keeps both for the
+    /// coefficients of the last calls, see most_kept() in the source.
+    void prepare();
 
     /// Discards factors, F and searches; prepare() makes them anew.
     void reset();
@@ -71,8 +71,10 @@ namespace taut
 
     StepEquations &equations() { return *kept.front().equations; }
     const StepEquations &equations() const { return *kept.front().equations; }
-    ContactConditions &conditions() { return own_conditions; }
-    const ContactConditions &conditions() const { return own_conditions; }
+    ContactStep &contacts() { return own_contacts; }
+    const ContactStep &contacts() const { return own_contacts; }
+    StepReport &report() { return own_report; }
+    const StepReport &report() const { return own_report; }
     StepHistory &history() { return own_history; }
     const StepHistory &history() const { return own_history; }
     const BalanceCertificate &balance() const { return own_balance; }
@@ -100,15 +102,16 @@ namespace taut
     const Structure &structure;
     const Constraints &constraints;
     const SolverParameters &parameters;
+    const StepMethod &method;
     const NonlinearBodies &bodies;
     const TurningConstraints &turning;
-    StepCoefficients c;
     std::vector<Kept> kept;      ///< the last ones first
     InterfaceStatistics earlier; ///< statistics of equations before reset()
-    ContactConditions own_conditions;
+    ContactStep own_contacts;
     StepHistory own_history;
     BalanceCertificate own_balance;
     StepCheck own_check;
+    StepReport own_report;
     StepCosts own_costs;
   };
 } // namespace taut

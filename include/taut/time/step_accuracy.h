@@ -13,20 +13,20 @@
 
 namespace taut
 {
+  class Motion;
+
   /// A run from start to end, with all that another run in other steps needs. References are kept.
   struct RunInSteps
   {
+    Motion &motion;
     const Structure &structure;
     Constraints &constraints;
-    const SolverParameters &solver;
-    const TimeIntegrator &integrator;
     const StepParameters &control;
     double step;                            ///< [s]
     long n_steps;                           ///< of this length
     std::vector<LongestStep> longest_steps; ///< see StepControl
     const Reference &reference;
     const State &start;
-    bool at_rest;                 ///< the start is an equilibrium
     bool at_any_cost = false;     ///< allows other runs at any cost
     std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
   };
@@ -51,7 +51,7 @@ namespace taut
     static bool is_affordable(const RunInSteps &run);
 
     /// Records an accepted step of the run itself.
-    void record(const State &state) { own.record(state); }
+    void record(const State &state, const StepReport &report) { own.record(state, report); }
 
     /// Makes the other runs. After each step @p stop may end them. Called by all ranks together.
     void measure(const std::function<bool()> &stop);

@@ -3,10 +3,10 @@
 #define taut_step_control_h
 
 #include <taut/time/contact_resolution.h>
-#include <taut/time/time_stepper.h>
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace dealii
 {
@@ -15,11 +15,13 @@ namespace dealii
 
 namespace taut
 {
+  class Motion;
+
   /// Parameters for the length of steps.
   struct StepParameters
   {
     std::string control = "fixed";                 ///< or "adaptive"
-    double tolerance = 1e-4;                       ///< bound of TimeStepper::local_error() [1]
+    double tolerance = 1e-4;                       ///< bound of LocalError [1]
     unsigned int n_halvings = 10, n_doublings = 4; ///< bounds of the length, from Step
     double largest = 0.;                           ///< longest step; 0: from the doublings [s]
 
@@ -65,7 +67,7 @@ namespace taut
     bool is_at_step() const { return position % (1L << n_levels) == 0; }
 
     /// Advances by one accepted step. After any exception it and the motion are as before.
-    void advance(TimeStepper &stepper);
+    void advance(Motion &motion);
 
     long n_repeated() const { return repeated; }
 
@@ -79,13 +81,13 @@ namespace taut
   private:
     long length() const { return 1L << level; }
 
-    void solve(TimeStepper &stepper);
-    double longest_step(std::size_t i, const TimeStepper &stepper) const;
-    bool is_moving_contact(std::size_t i, const TimeStepper &stepper) const;
-    bool is_too_long_for_contacts(const TimeStepper &stepper) const;
+    void solve(Motion &motion);
+    double longest_step(std::size_t i, const Motion &motion) const;
+    bool is_moving_contact(std::size_t i, const Motion &motion) const;
+    bool is_too_long_for_contacts(const Motion &motion) const;
     void shorten(unsigned int n_levels_down);
-    void advance_fixed(TimeStepper &stepper);
-    void advance_adaptive(TimeStepper &stepper);
+    void advance_fixed(Motion &motion);
+    void advance_adaptive(Motion &motion);
 
     const StepParameters parameters;
     const std::vector<LongestStep> longest_steps;

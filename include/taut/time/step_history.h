@@ -3,10 +3,10 @@
 #define taut_step_history_h
 
 #include <taut/time/balance_certificate.h>
-#include <taut/time/integrator.h>
 #include <taut/time/prescribed_motions.h>
 #include <taut/time/state.h>
 #include <taut/time/step_equations.h>
+#include <taut/time/step_method.h>
 
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    StepHistory(const Structure &structure, const Reference &reference);
+    StepHistory(const Structure &structure, const Reference &reference, const StepMethod &method);
 
     /// Sets the external forces at a time [s], minus the forces of the reference.
     void set_external_forces(double time);
@@ -27,7 +27,7 @@ namespace taut
     /// Sets loads() to P^_k = P - K U + kappa r - C v* - M a* plus prescribed motions. r is the
     /// balance of the step before, v* the known part of the velocity, and a* the known part of the
     /// mean acceleration, see StepCoefficients.
-    void set_loads(const StepCoefficients &c, const StepEquations &equations, State &state);
+    void set_loads(const StepEquations &equations, State &state);
 
     /// P^ after set_loads().
     BodyVectors &loads() { return shared; }
@@ -49,24 +49,24 @@ namespace taut
 
     /// After exchange(): sets displacement, velocity, acceleration of body k in rows begin to
     /// end - 1.
-    void accept(const StepCoefficients &c, std::size_t k, std::size_t begin, std::size_t end,
-                State &state) const;
+    void accept(std::size_t k, std::size_t begin, std::size_t end, State &state) const;
 
     /// Sets loads() for a refinement: the residual of the balance at the end of the step.
-    void set_lacking(const StepCoefficients &c, const StepEquations &equations, State &state);
+    void set_lacking(const StepEquations &equations, State &state);
 
     /// Adds the correction in increments() to the state.
-    void add_correction(const StepCoefficients &c, State &state);
+    void add_correction(State &state);
 
     const StepForces &forces() const { return step_forces; }
 
   private:
     void exchange_old(State &state);
     void set_external_force(std::size_t k, double time);
-    void set_load(std::size_t k, const StepCoefficients &c, const State &state);
+    void set_load(std::size_t k, const State &state);
 
     const Structure &structure;
     const Reference &reference;
+    const StepMethod &method;
     StepForces step_forces;
     PrescribedMotions motions;
     BodyVectors shared;

@@ -4,7 +4,7 @@
 
 #include <taut/base/lasting.h>
 #include <taut/interface/system.h>
-#include <taut/time/stepped_motion.h>
+#include <taut/time/motion.h>
 
 #include <string>
 #include <vector>
@@ -58,13 +58,13 @@ namespace taut
     std::vector<double> displacement(std::size_t body) const;
 
     /// Newton iterations so far, for nonlinear bodies; otherwise 0.
-    long n_newton_iterations() const { return motion.time_stepper().n_newton_iterations(); }
+    long n_newton_iterations() const { return motion.n_newton_iterations(); }
 
     /// Name of the scheme with its parameters, and why it was chosen.
     std::string scheme() const { return motion.scheme_and_reason(); }
 
     /// The motion without the system, for observers: see ObservedRun (simulation/observed_run.h).
-    SteppedMotion &stepped() { return motion; }
+    Motion &stepped() { return motion; }
 
   private:
     std::size_t row(std::size_t constraint) const;
@@ -73,7 +73,7 @@ namespace taut
     const std::size_t n_constraints; ///< of the system at construction
     Structure structure;             ///< bodies of the system, or their linearised() ones
     Constraints constraints;
-    SteppedMotion motion;
+    Motion motion;
   };
 } // namespace taut
 

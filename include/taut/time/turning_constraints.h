@@ -3,8 +3,8 @@
 #define taut_turning_constraints_h
 
 #include <taut/interface/constraints.h>
-#include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/step_method.h>
 
 #include <array>
 #include <string>
@@ -28,19 +28,20 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    TurningConstraints(const Constraints &constraints, const Reference &reference);
+    TurningConstraints(const Constraints &constraints, const Reference &reference,
+                       const StepMethod &method);
 
     bool empty() const { return constraints.turning_rows().empty(); }
 
-    /// For steps with these coefficients from now on. Throws EntryError for a scheme without gaps
-    /// at the ends of steps.
-    void prepare(const StepCoefficients &c) const;
+    /// After a change of the method. Throws EntryError for a scheme without gaps at the ends of
+    /// steps.
+    void check_method() const;
 
     /// Sets the directions at a state.
     void follow(const State &state);
 
     /// Begins a step from the state that follow() knows; the first guess is no motion.
-    void begin(const StepCoefficients &c);
+    void begin();
 
     /**
      * Takes the increments of an iteration as the next guess, whose multipliers are @p N, and the
@@ -74,7 +75,7 @@ namespace taut
 
     const Constraints &constraints;
     const Reference &reference;
-    bool is_mean = false;
+    const StepMethod &method;
     std::vector<Coordinates> start; ///< Delta_0
     std::vector<Coordinates> used;  ///< directions of B_i
     std::vector<Coordinates> next;  ///< directions of the guess

@@ -5,7 +5,7 @@
 #include <taut/complementarity/solver.h>
 #include <taut/interface/connected_bodies.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/time/contact_conditions.h>
+#include <taut/time/contact_step.h>
 #include <taut/time/mass_equations.h>
 #include <taut/time/projection_compliance.h>
 #include <taut/time/solver_parameters.h>
@@ -52,12 +52,11 @@ namespace taut
 
     /**
      * Changes V, D' and multipliers of a state after the first part of a step, and subtracts C
-     * times the change of V from its balance. @p rates belong to the conditions. @p F is the matrix
+     * times the change of V from its balance. @p F is the matrix
      * of prepare() with the sliding constraints in their places. Throws the errors of
      * ComplementaritySolver. Called by all ranks together.
      */
-    Residual project(const ContactConditions &conditions, GapRates &rates, State &state,
-                     ComplementarityOperator &F);
+    Residual project(ContactStep &contacts, State &state, ComplementarityOperator &F);
 
     /// DoFs without mass and damping of each body, which end the step in equilibrium.
     const std::vector<std::vector<unsigned int>> &quasi_static_dofs() const { return quasi_static; }
@@ -71,13 +70,13 @@ namespace taut
     const std::vector<double> &work() const { return work_of_rows; }
 
   private:
-    bool has_to_act(const ContactConditions &conditions, const State &state);
+    bool has_to_act(const ContactStep &contacts, const State &state);
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
-    void solve(const ContactConditions &conditions, const State &state);
-    void add_largest_parts(const ContactConditions &conditions, const State &state,
+    void solve(const ContactStep &contacts, const State &state);
+    void add_largest_parts(const ContactStep &contacts, const State &state,
                            const std::vector<double> &rebounding);
-    Residual set_velocities(GapRates &rates, State &state);
+    Residual set_velocities(ContactStep &contacts, State &state);
     void move_quasi_static(State &state);
     void change_velocities(State &state);
 

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_motion_h
+#define taut_motion_h
+
+#include <taut/base/archive_forward.h>
+#include <taut/base/start.h>
+#include <taut/time/choose_scheme.h>
+#include <taut/time/contact_measures.h>
+#include <taut/time/energy_gains.h>
+#include <taut/time/initial_state.h>
+#include <taut/time/load_sampling.h>
+#include <taut/time/local_error.h>
+#include <taut/time/nonlinear_step.h>
+#include <taut/time/step.h>
+#include <taut/time/step_accuracy.h>
+#include <taut/time/step_control.h>
+#include <taut/time/velocity_projection.h>
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// Options of a motion; the defaults suit most systems.
+  struct StepperOptions
+  {
+    double step = 1e-3;        ///< [s]
+    StepParameters steps = {}; ///< fixed, or adaptive
+
+    /// Time until which "automatic" follows moving constraints; 0: at the start only [s].
+    double end = 0.;
+    Start start = Start::equilibrium;
+
+    /// "automatic" chooses by the constraints that act as rigid. Otherwise the name of a registered
+    /// scheme, with values of its entries by path ("Moreau-Jean/Theta"), which "automatic" sets
+    /// itself.
+    std::string scheme = "automatic";
+    std::map<std::string, std::string> scheme_entries = {};
+    double restitution = 0.; ///< Newton's, only with "automatic", 0 to 1 [1]
+    bool allow_unsuitable_scheme = false;
+
+    SolverParameters solver = {};
+  };
+
+  /**
+   * The motion of bodies under constraints: their state, the scheme, the step, and the control of
+   * its length. Use it for bodies with another owner, as those of a scene; a program with a System
+   * uses a Stepper.
+   *
+   * Three calls prepare the motion, so that results can be reported before the next call fails: the
+   * constructor finds the start, choose_scheme() the scheme, and prepare() sets up all parts for
+   * steps. A step then
+   *
+   *     places the constraints that slide            Constraints::follow(), update()
+   *     finds multipliers and increments, accepts
+   *     and certifies them                           Step
+   *     projects the velocities, with some schemes   VelocityProjection
+   *     and tells what it did                        StepReport, EnergyGains, ContactMeasures.
+   *
+   * With nonlinear bodies or turning constraints, NonlinearStep iterates to the increments.
+   * StepControl says how long the next step is, and takes back one that is too long. All ranks call
+   * each function together.
+   */
+  class Motion
+  {
+  public:
+    /// @p structure and @p constraints are kept by reference. Throws the errors of
+    /// find_initial_state().
+    Motion(Structure &structure, Constraints &constraints, const StepperOptions &options);
+
+    /// Throws UserError for a restitution that no constraint can have.
+    void choose_scheme();
+
+    /// For @p n_steps of length StepperOptions::step. Throws UserError for a scheme that is known
+    /// to fail on a constraint, and for bodies without support.
+    void prepare(long n_steps = std::numeric_limits<long>::max());
+
+    /// A prepared motion from a start of the user's own, with a scheme of the user's own. For
+    /// constraints with dampers, @p longest_steps are those of ContactResolution.
+    Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
+           InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
+           long n_steps = std::numeric_limits<long>::max(),
+           std::vector<LongestStep> longest_steps = {});
+
+    /// The prepared @p other motion once more from its start, in @p n_steps of other lengths. The
+    /// constraints move with this one from now on.
+    Motion(Motion &other, double step, const StepParameters &steps,
+           std::vector<LongestStep> longest_steps, long n_steps);
+
+    /// Advances by one accepted step. Throws UserError with time and constraint if its certificate
+    /// exceeds the contact tolerance. After any exception the motion is that before the step.
+    void advance();
+
+    /// True also for an unprepared motion, which stays at its start.
+    bool is_finished() const { return !parts || parts->control.is_finished(); }
+
+    /// True at multiples of StepperOptions::step.
+    bool is_at_step() const { return parts->control.is_at_step(); }
+    long n_repeated() const { return parts ? parts->control.n_repeated() : 0; }
+
+    const InitialState &start() const { return initial; }
+    const Reference &reference() const { return initial.reference; }
+
+    /// State after the last step, or at the start, and its residuals.
+    const State &state() const { return parts ? parts->state : initial.state; }
+    const Certificate &certificate() const
+    {
+      return has_moved() ? parts->certificate : initial.certificate;
+    }
+
+    /// What the last step tells; empty before the first step.
+    const StepReport &report() const { return parts ? parts->step.report() : no_report; }
+    bool has_moved() const { return parts && parts->n_steps > 0; }
+
+    /// Measures of the contacts so far.
+    const ContactMeasures &measures() const { return contact_measures; }
+
+    const Structure &bodies() const { return structure; }
+    const Constraints &links() const { return constraints; }
+
+    /// Name and entries of the scheme, the reason (empty: the user named it), and all in words.
+    const SchemeChoice &choice() const { return chosen; }
+    std::string scheme() const;
+    std::string scheme_and_reason() const;
+
+    // Of a prepared motion:
+
+    /// Newton iterations so far; 0 if all bodies are linear and no constraint turns.
+    long n_newton_iterations() const { return parts->nonlinear.n_iterations(); }
+    bool is_linear() const { return parts->nonlinear.is_linear(); }
+
+    /// Form and size of the interface operator, for the log.
+    std::string interface_description() const;
+    InterfaceStatistics interface_statistics() const { return parts->step.interface_statistics(); }
+
+    /// Rigid joints that repeated each other in the last step, see RepeatedRows; iterative solves
+    /// do not find them.
+    std::vector<std::size_t> repeated_joints() const;
+
+    /// Where the time of the steps goes; those of a prepared motion differ from those before.
+    StepCosts &costs() { return parts ? parts->step.costs() : no_costs; }
+    const StepCosts &costs() const { return parts ? parts->step.costs() : no_costs; }
+    RunInSteps run_in_steps(long n_steps);
+
+    /// Stores all data of later steps but the vectors of the bodies, equal on all ranks. Then, like
+    /// load(), resets factors, F and search, whose rounding depends on earlier steps: a run that
+    /// stores and a run that continues from there have the same bits.
+    void save(OutputArchive &archive);
+
+    /// @p state has the vectors of the bodies.
+    void load(InputArchive &archive, State state);
+
+    /// Calls Substructure::load() of a body of this rank.
+    void load_body(const std::size_t k, InputArchive &archive) { structure.load(k, archive); }
+
+    // For StepControl:
+
+    /// Makes one step of this length [s], certified. After any exception the motion is that before.
+    void try_step(double length);
+
+    /// Takes the last step back, as if nothing had happened since.
+    void take_back();
+
+    /// The rows before the last step.
+    const RowStates &rows_before() const { return parts->before.rows; }
+
+    /// Local error of the last step, see LocalError.
+    double local_error();
+
+    /// True if the next step, of @p length [s], resolves loads and prescribed motions, see
+    /// LoadSampling.
+    bool resolves_loads(double length, double reference_step, double tolerance);
+
+  private:
+    /// What take_back() needs beside the vectors of the bodies, which the history has.
+    struct Before
+    {
+      double time = 0., last_step = 0., step_before = 0.;
+      long n_in_segment = 0, n_steps = 0;
+      RowStates rows;
+      Certificate certificate;
+      StepReport report;
+      std::vector<double> kinetic_energies;
+      PerKind motion;
+      ContactStep::Sizes sizes;
+      std::vector<std::vector<double>> courses;
+      std::vector<double> rates;
+    };
+
+    /// The parts of a prepared motion.
+    struct Parts
+    {
+      Parts(const Structure &structure, Constraints &constraints, const StepperOptions &options,
+            const InitialState &initial, const std::vector<LongestStep> &longest_steps,
+            long n_steps);
+
+      State state;
+      Certificate certificate;
+      const std::vector<char> quasi_static; ///< rows on DoFs without mass and damping
+      StepMethod method;
+      bool is_prepared = false; ///< the other parts, for the method
+      NonlinearStep nonlinear;
+      Step step;
+      LoadSampling loads;
+      LocalError errors;
+      EnergyGains energy_gains;
+      std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
+      StepControl control;
+      Before before;
+
+      // Times of equal steps are multiples counted from their first start, and do not drift.
+      double length;           ///< of the steps to come [s]
+      double segment_start;    ///< start of the first step of this length [s]
+      double step_before = 0.; ///< length of the step before the last one; 0: none [s]
+      long n_in_segment = 0, n_steps = 0;
+    };
+
+    const ContactResolution &resolution();
+    void begin(long n_steps);
+    void prepare_method(const TimeIntegrator &scheme, const StepCoefficients &c);
+    void start_balance();
+    void hold_quasi_static_dofs();
+    void keep();
+    void step_on();
+    void begin_step();
+    void attempt(const std::function<void()> &work);
+    void solve();
+    void project_velocities();
+    void measure_energy();
+    void check_moving_contacts();
+    template <typename Archive>
+    void store(Archive &archive);
+    void reset_caches(const std::vector<double> &largest_rates);
+
+    Structure &structure;
+    Constraints &constraints;
+    const StepperOptions options;
+    InitialState initial;
+    ContactMeasures contact_measures;
+    SchemeChoice chosen;
+    std::unique_ptr<ContactResolution> resolved; ///< until the first step
+    std::shared_ptr<const TimeIntegrator> integrator;
+    std::shared_ptr<const TimeIntegrator> first_scheme; ///< of the first step
+    std::vector<LongestStep> longest_steps; ///< of constraints with dampers
+    std::unique_ptr<Parts> parts;
+    StepReport no_report; ///< before the first step
+    StepCosts no_costs;   ///< of a motion that is not prepared
+  };
+} // namespace taut
+
+#endif
