@@ -173,8 +173,8 @@ namespace taut
     const StepCoefficients c = integrator.coefficients(step);
     const std::vector<char> without_mass = constraints.without_mass();
     const bool has_means = integrator.internal_forces() == ForceTime::mean;
-    for (std::size_t i = 0;
-         integrator.rule(RowTraits()).is_on_velocity() && i < constraints.size(); ++i)
+    for (std::size_t i = 0; integrator.rule(RowTraits()).is_on_velocity() && i < constraints.size();
+         ++i)
     {
       if (without_mass[i] && c.alpha_f == .5)
         throw EntryError("Time/Mass redistribution",

@@ -9,16 +9,9 @@ namespace taut
 {
   namespace
   {
-    /// Steps between two measurements of the scale of contact energy: one costs a tenth of a step.
-    constexpr long steps_between_scales = 16;
-
     /// Motions of a step that a condition on velocities may leave as a gap: of this step and the
     /// next.
     constexpr double most_steps_of_motion = 2.;
-
-    /// Part of the energy of a nonlinear body that is rounding in a step, and the rotation through
-    /// which rounding of moments may do work [rad].
-    constexpr double rounding_of_step = 1e-14, noise_turn = 1e-2;
 
     /// Bound of the highest angular frequency at each DoF from the diagonals, 2 sqrt(K_jj / M_jj);
     /// 0 without mass or stiffness [rad/s].
@@ -42,52 +35,16 @@ namespace taut
   } // namespace
 
   ContactMeasures::ContactMeasures(const Structure &structure, const Constraints &constraints,
-                                   const Reference &reference, const State &start)
-      : structure(structure), constraints(constraints), reference(reference),
-        forces(constraints.size()), energies(structure, constraints, reference, start)
+                                   const EnergyAccount &energy, const State &start)
+      : structure(structure), constraints(constraints), energy(energy), forces(constraints.size())
   {
     const std::vector<double> times = resolved_times();
-    const std::size_t n = energies.groups().n_groups();
-    first_one_sided.assign(n, no_link);
-    for (std::size_t i = constraints.size(); i-- > 0;)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       forces[i].window = times[i];
       forces[i].last = forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
-      if (constraints[i].cone.may_open())
-        first_one_sided[energies.groups().of_constraint(i)] = i;
     }
-    contact_gains.assign(n, 0.);
-    motion_gains.assign(n, 0.);
-    measure_rest(start);
-  }
-
-  /// Finds groups with large motions, and their rounding of energy in a step.
-  void ContactMeasures::measure_rest(const State &start)
-  {
-    const ConnectedBodies &groups = energies.groups();
-    const std::size_t n = groups.n_groups();
-    std::vector<double> sums(2 * n, 0.);
-    structure.communicator().agree(
-        [&]
-        {
-          for (std::size_t k = 0; k < structure.size(); ++k)
-          {
-            const Substructure &body = structure[k];
-            if (body.is_linear())
-              continue;
-            sums[groups.of_body(k)] += 1.;
-            sums[n + groups.of_body(k)] +=
-                rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
-                noise_turn * body.rounding_of_force(1);
-          }
-        });
-    structure.communicator().sum(sums);
-    for (const std::size_t i : constraints.turning_rows())
-      sums[groups.of_constraint(i)] += 1.;
-    for (std::size_t g = 0; g < n; ++g)
-      moves_far.push_back(sums[g] > 0.);
-    rest_of_step.assign(sums.begin() + n, sums.end());
   }
 
   /// 2 / omega_max of the elements under each unilateral constraint; 0: lumped bodies only.
@@ -113,10 +70,8 @@ namespace taut
     return highest;
   }
 
-  void ContactMeasures::record(const State &state, const StepReport &report,
-                               const BodyVectors &P)
+  void ContactMeasures::record(const State &state, const StepReport &report)
   {
-    ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!constraints[i].cone.may_open())
@@ -124,23 +79,6 @@ namespace taut
       add_wire_end(i, state);
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, report);
-    }
-    energies.record(state, report);
-    add_gains(report);
-    if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
-      energies.measure_scale(state, P);
-  }
-
-  /// Without a unilateral constraint, no contact can have caused a gain.
-  void ContactMeasures::add_gains(const StepReport &report)
-  {
-    for (std::size_t g = 0; g < report.gains.size(); ++g)
-    {
-      const double gain = std::max(0., report.gains[g]);
-      if (first_one_sided[g] != no_link && report.method.has_means())
-        contact_gains[g] += gain;
-      if (moves_far[g])
-        motion_gains[g] += gain;
     }
   }
 
@@ -162,21 +100,17 @@ namespace taut
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
       archive &f.largest_impulse &f.gap &f.motion &f.last &f.end;
     }
-    archive &contact_gains &motion_gains &n_steps &found.gap &found.gap_constraint;
-    archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;
-    archive &found.mean_peak &found.mean_time;
+    archive &found.gap &found.gap_constraint;
   }
 
   void ContactMeasures::save(OutputArchive &archive)
   {
     store(archive);
-    energies.save(archive);
   }
 
   void ContactMeasures::load(InputArchive &archive)
   {
     store(archive);
-    energies.load(archive);
   }
 
   /// Drops the impulses before the window.
@@ -214,8 +148,7 @@ namespace taut
     force.mean_peak = std::max(force.mean_peak, force.mean);
   }
 
-  void ContactMeasures::add_gap(const std::size_t i, const State &state,
-                                const StepReport &report)
+  void ContactMeasures::add_gap(const std::size_t i, const State &state, const StepReport &report)
   {
     if (!constraints[i].spring.is_rigid())
       return;
@@ -232,86 +165,14 @@ namespace taut
     force.gap = std::max(force.gap, gap);
   }
 
-  /// Finds the group with most contact energy, and its worst constraint.
-  void ContactMeasures::find_contact_energy(Summary &result) const
-  {
-    const ConnectedBodies &groups = energies.groups();
-    std::vector<double> given = contact_gains, taken(given.size(), 0.), worst(given.size(), 0.);
-    std::vector<std::size_t> row = first_one_sided;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      if (!constraints[i].cone.may_open())
-        continue;
-      const LinkEnergies::Account account = energies.account(i);
-      const std::size_t group = groups.of_constraint(i);
-      given[group] += account.given;
-      taken[group] += account.taken;
-      if (!(account.given + account.taken > worst[group]))
-        continue;
-      worst[group] = account.given + account.taken;
-      row[group] = i;
-    }
-    for (std::size_t g = 0; g < given.size(); ++g)
-    {
-      const double energy = given[g] + taken[g], scale = energies.scale(g);
-      if (row[g] != no_link && energy > result.relative_energy * scale)
-      {
-        const LinkEnergies::Account account = energies.account(row[g]);
-        result.relative_energy = energy / scale;
-        result.contact_energy = energy;
-        result.taken = taken[g];
-        result.scale = scale;
-        result.energy_constraint = row[g];
-        result.energy_begin = account.begin;
-        result.energy_end = account.end;
-        result.contact_time = std::isfinite(account.shortest) ? account.shortest : 0.;
-        result.step = account.step;
-      }
-      const double gain = motion_gains[g] - n_steps * rest_of_step[g];
-      result.motion_energy += motion_gains[g];
-      if (gain > 0.)
-        result.relative_motion_energy = std::max(result.relative_motion_energy, gain / scale);
-    }
-  }
-
-  void ContactMeasures::find_momentum(Summary &result) const
-  {
-    const ConnectedBodies &groups = energies.groups();
-    struct Worst
-    {
-      double impulse = 0., momentum = 0.;
-      std::size_t constraint = 0;
-    };
-    std::vector<Worst> worst(contact_gains.size());
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].cone.may_open())
-      {
-        const LinkEnergies::Account account = energies.account(i);
-        Worst &own = worst[groups.of_constraint(i)];
-        own.impulse = std::max(own.impulse, account.impulse);
-        if (!(account.momentum > own.momentum))
-          continue;
-        own.momentum = account.momentum;
-        own.constraint = i;
-      }
-    for (const Worst &w : worst)
-      if (w.impulse > 0. && w.momentum > result.relative_momentum * w.impulse)
-      {
-        result.momentum = w.momentum;
-        result.relative_momentum = w.momentum / w.impulse;
-        result.momentum_constraint = w.constraint;
-      }
-  }
-
   ContactMeasures::Summary ContactMeasures::summary() const
   {
     Summary result = found;
-    find_contact_energy(result);
-    find_momentum(result);
+    static_cast<EnergySummary &>(result) = energy.summary();
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];
-      if (force.gap > most_steps_of_motion * force.motion && force.gap > energies.noise(i) &&
+      if (force.gap > most_steps_of_motion * force.motion && force.gap > energy.noise(i) &&
           force.motion > 0.)
         result.gap_drifts = true;
       if (!(force.peak > result.resolution * force.mean_peak) || !(force.mean_peak > 0.))

@@ -106,7 +106,7 @@ namespace taut
     const Summary s = summary();
     std::ostringstream out;
     out.precision(2);
-    if (std::find(moves_far.begin(), moves_far.end(), 1) != moves_far.end())
+    if (energy.has_large_motions())
       out << "Large motions: gain of energy " << s.relative_motion_energy << " of the largest\n";
     if (constraints.size() > 0)
       out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap

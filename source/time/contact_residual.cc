@@ -52,8 +52,7 @@ namespace taut
     }
     structure.communicator().sum(&sum, 1);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      scale[i] +=
-          part_of_whole_motion * std::sqrt(std::max(0., sum * (F.diagonal(i) - S[i])));
+      scale[i] += part_of_whole_motion * std::sqrt(std::max(0., sum * (F.diagonal(i) - S[i])));
   }
 
   /// Adds, at rest, motions of what each DoF is tied to, sum_j |K_ij| |U_j| / K_ii: slopes of a

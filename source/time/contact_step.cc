@@ -33,11 +33,26 @@ namespace taut
         method(method), laws(constraints), of_conditions(structure, constraints)
   {
     const std::size_t n = constraints.size();
-    for (auto *v :
-         {&solved.multiplier, &balanced, &impulses, &problem.free_gap, &problem.gap_scale,
-          &gap_correction, &motion, &motion_size, &position, &terms_size, &scale_of_step,
-          &largest.gaps, &largest.terms, &velocity, &velocity_size, &rates_before, &convection,
-          &rate_of_place, &S, &history})
+    for (auto *v : {&solved.multiplier,
+                    &balanced,
+                    &impulses,
+                    &problem.free_gap,
+                    &problem.gap_scale,
+                    &gap_correction,
+                    &motion,
+                    &motion_size,
+                    &position,
+                    &terms_size,
+                    &scale_of_step,
+                    &largest.gaps,
+                    &largest.terms,
+                    &velocity,
+                    &velocity_size,
+                    &rates_before,
+                    &convection,
+                    &rate_of_place,
+                    &S,
+                    &history})
       v->assign(n, 0.);
     reference_gap = constraints.motions(reference.displacement);
     const std::vector<double> motions = constraints.motions(start.U);
@@ -189,7 +204,8 @@ namespace taut
     else if (has_mean_spring(i))
     {
       const double rate = own.damping / step;
-      history[i] = -((1. - theta) * own.stiffness - rate) / (theta * own.stiffness + rate) * spring.u;
+      history[i] =
+          -((1. - theta) * own.stiffness - rate) / (theta * own.stiffness + rate) * spring.u;
     }
     else
       history[i] = S[i] * own.damping * (c.velocity * spring.u - known);
@@ -405,8 +421,7 @@ namespace taut
       {
         const double rebound =
             constraints[i].cone.restitution(method.c.restitution) * rates_before[i];
-        recomputed.gap[i] =
-            (1. - method.c.alpha_f) * method.length * (state.gap_rate[i] + rebound);
+        recomputed.gap[i] = (1. - method.c.alpha_f) * method.length * (state.gap_rate[i] + rebound);
       }
   }
 
@@ -444,8 +459,7 @@ namespace taut
     double max = 0.;
     for (const std::size_t i : constraints.fixed_rows())
     {
-      largest.terms[i] =
-          std::max(largest.terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
+      largest.terms[i] = std::max(largest.terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
       const double error = std::fabs(reference_gap[i] + position[i] - state.geometric_gap[i]),
                    relative = error == 0. ? 0. : error / largest.terms[i];
       if (!(relative <= max) && !std::isnan(max))
@@ -483,8 +497,8 @@ namespace taut
   {
     const std::vector<double> terms = body_terms(U), moved = constraints.motions(U);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      largest.gaps[i] = std::max(largest.gaps[i],
-                                 terms[i] + (size_of_gap(constraints[i]) + std::fabs(moved[i])) /
-                                                part_of_largest);
+      largest.gaps[i] =
+          std::max(largest.gaps[i], terms[i] + (size_of_gap(constraints[i]) + std::fabs(moved[i])) /
+                                                   part_of_largest);
   }
 } // namespace taut

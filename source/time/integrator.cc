@@ -15,9 +15,9 @@ namespace taut
   bool StepCoefficients::operator==(const StepCoefficients &o) const
   {
     return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
-                    alpha_f, restitution) ==
-           std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V, o.a_A, o.a_dU,
-                    o.a_V_old, o.alpha_m, o.alpha_f, o.restitution);
+                    alpha_f, restitution) == std::tie(o.velocity, o.acceleration, o.v_V, o.v_A,
+                                                      o.v_dU, o.a_V, o.a_A, o.a_dU, o.a_V_old,
+                                                      o.alpha_m, o.alpha_f, o.restitution);
   }
 
   double StepCoefficients::ringing() const
@@ -269,13 +269,14 @@ namespace taut
       }
 
       /**
-       * 'velocities': M. Jean (1999). 'gaps': a mean force N does the work N (D - D_0) = -N D_0 <= 0
-       * at the end of the step, and never adds energy; bilateral constraints are at velocity level,
-       * as under D = 0 their velocities alternate for ever at theta = 1/2. 'gaps then velocities':
-       * constraints hold for both at the end of each step (C. W. Gear, B. Leimkuhler, G. K. Gupta,
-       * J. Comput. Appl. Math. 12-13 (1985); O. Brüls, V. Acary, A. Cardona, Comput. Methods Appl.
-       * Mech. Engrg. 281 (2014)); elastic ones that open or turn have mean forces, too. Forces on
-       * quasi-static DoFs remain those at the end of the step, where they hold them in equilibrium.
+       * 'velocities': M. Jean (1999). 'gaps': a mean force N does the work N (D - D_0) = -N D_0 <=
+       * 0 at the end of the step, and never adds energy; bilateral constraints are at velocity
+       * level, as under D = 0 their velocities alternate for ever at theta = 1/2. 'gaps then
+       * velocities': constraints hold for both at the end of each step (C. W. Gear, B. Leimkuhler,
+       * G. K. Gupta, J. Comput. Appl. Math. 12-13 (1985); O. Brüls, V. Acary, A. Cardona, Comput.
+       * Methods Appl. Mech. Engrg. 281 (2014)); elastic ones that open or turn have mean forces,
+       * too. Forces on quasi-static DoFs remain those at the end of the step, where they hold them
+       * in equilibrium.
        */
       RowRule rule(const RowTraits &row) const override
       {

@@ -36,7 +36,7 @@ namespace taut
     for (std::size_t i = 0; i < dU.size(); ++i)
     {
       motion[i] = of.method.has_means() ? mean * (A[i] - A0[i])
-                                  : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
+                                        : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
       impulse[i] = of.method.corrects_velocities ? step * (V[i] - V0[i] - step * A[i]) : 0.;
     }
     // A prescribed place has no error, but its kinks and jumps need short steps.
@@ -57,8 +57,8 @@ namespace taut
     return largest(structure[k], x);
   }
 
-  double LocalError::measure(const State &state, const StepMethod &method,
-                             const double step_before, const BodyVectors &old_A)
+  double LocalError::measure(const State &state, const StepMethod &method, const double step_before,
+                             const BodyVectors &old_A)
   {
     PerKind error = {0., 0.}, size = {0., 0.};
     std::array<std::vector<double>, 2> squares; // errors of elements: motions and impulses

@@ -17,8 +17,8 @@ namespace taut
         step(structure, constraints, options.solver, initial.reference, method, nonlinear.bodies(),
              nonlinear.constraints(), state),
         loads(structure), errors(structure, constraints, initial.reference),
-        energy_gains(structure, constraints, nonlinear, step.contacts()),
-        control(options.steps, options.step, n_steps, !nonlinear.is_linear(), longest_steps), length(options.step), segment_start(state.time)
+        control(options.steps, options.step, n_steps, !nonlinear.is_linear(), longest_steps),
+        length(options.step), segment_start(state.time)
   {
   }
 
@@ -26,7 +26,8 @@ namespace taut
       : structure(structure), constraints(constraints), options(options),
         initial(find_initial_state(structure, constraints, options.solver, options.start,
                                    options.step)),
-        contact_measures(structure, constraints, initial.reference, initial.state)
+        energy(structure, constraints, initial.reference, initial.state),
+        contact_measures(structure, constraints, energy, initial.state)
   {
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
   }
@@ -46,9 +47,9 @@ namespace taut
   Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
                  InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
                  const long n_steps, std::vector<LongestStep> longest_steps)
-      : structure(structure), constraints(constraints), options(options),
-        initial(std::move(start)),
-        contact_measures(structure, constraints, initial.reference, initial.state),
+      : structure(structure), constraints(constraints), options(options), initial(std::move(start)),
+        energy(structure, constraints, initial.reference, initial.state),
+        contact_measures(structure, constraints, energy, initial.state),
         integrator(std::move(scheme)), longest_steps(std::move(longest_steps))
   {
     begin(n_steps);
@@ -117,9 +118,9 @@ namespace taut
                        ? integrator
                        : make_integrator("backward Euler");
     constraints.update(initial.state.time);
-    parts = std::make_unique<Parts>(structure, constraints, options, initial, longest_steps, n_steps);
+    parts =
+        std::make_unique<Parts>(structure, constraints, options, initial, longest_steps, n_steps);
     parts->nonlinear.follow(parts->state);
-    parts->energy_gains.start(parts->state);
     prepare_method(*first_scheme, first_scheme->coefficients(options.step));
     if (!starts_itself)
       return;
@@ -178,7 +179,8 @@ namespace taut
   {
     parts->control.advance(*this);
     costs().lap(StepPart::control);
-    contact_measures.record(state(), report(), parts->step.history().forces().P);
+    energy.record(state(), report(), parts->step.history().forces().P);
+    contact_measures.record(state(), report());
     costs().lap(StepPart::measures);
   }
 
@@ -223,7 +225,7 @@ namespace taut
     b.n_steps = p.n_steps;
     b.certificate = p.certificate;
     b.report = p.step.report();
-    b.kinetic_energies = p.energy_gains.kinetic_energies();
+    b.kinetic_energies = energy.kinetic_energies();
     b.motion = p.errors.largest_motions;
     b.sizes = p.step.contacts().largest_sizes();
     constraints.copy_courses(b.courses);
@@ -247,7 +249,7 @@ namespace taut
     p.n_steps = b.n_steps;
     p.certificate = b.certificate;
     p.step.report() = b.report;
-    p.energy_gains.set_kinetic_energies(b.kinetic_energies);
+    energy.set_kinetic_energies(b.kinetic_energies);
     p.errors.largest_motions = b.motion;
     p.step.contacts().set_largest_sizes(b.sizes);
     if (p.projection && !b.rates.empty())
@@ -306,8 +308,9 @@ namespace taut
     state.last_step = p.length;
     p.step.check().set_time(state.time);
     attempt(
-        [&]
-        { constraints.follow(initial.reference.displacement, state.U, state.V, start, state.time); });
+        [&] {
+          constraints.follow(initial.reference.displacement, state.U, state.V, start, state.time);
+        });
     constraints.update(state.time);
     costs().lap(StepPart::places);
     if (p.nonlinear.constraints().empty())
@@ -342,21 +345,8 @@ namespace taut
       project_velocities();
       costs().lap(StepPart::projection);
     }
-    measure_energy();
+    energy.measure(p.step, p.nonlinear, p.state);
     costs().lap(StepPart::energy);
-  }
-
-  void Motion::measure_energy()
-  {
-    Parts &p = *parts;
-    if (p.method.has_means())
-    {
-      if (!integrator->rule(RowTraits()).is_on_velocity() &&
-          (constraints.size() > 0 || !is_linear()))
-        p.energy_gains.measure(p.step.balance(), p.state, p.step.report());
-    }
-    else if (!is_linear() && p.method.c.is_backward_euler())
-      p.energy_gains.measure_at_ends(p.state, p.step.report());
   }
 
   /// Sets the final velocities and forces of the step, and the balance for the next step.
@@ -366,10 +356,9 @@ namespace taut
     ContactStep &contacts = p.step.contacts();
     VelocityProjection::Residual of_rates;
     p.step.check().solve(
-        [&]
-        {
-          of_rates = p.projection->project(contacts, p.state,
-                                           p.step.equations().interface().matrix());
+        [&] {
+          of_rates =
+              p.projection->project(contacts, p.state, p.step.equations().interface().matrix());
         });
     if (!(of_rates.largest <= p.certificate.complementarity))
     {
@@ -433,21 +422,19 @@ namespace taut
 
   RunInSteps Motion::run_in_steps(const long n_steps)
   {
-    return {*this,        structure,     constraints,       options.steps, options.step,
-            n_steps,      longest_steps, initial.reference, initial.state};
+    return {*this,   structure,     constraints,       options.steps, options.step,
+            n_steps, longest_steps, initial.reference, initial.state};
   }
 
   template <typename Archive>
   void Motion::store(Archive &archive)
   {
     Parts &p = *parts;
-    archive &p.state &p.certificate &p.step.report() &p.method.c;
+    archive &p.state &p.certificate &p.step.report() & p.method.c;
     ContactStep::Sizes sizes = p.step.contacts().largest_sizes();
-    std::vector<double> kinetic_energies = p.energy_gains.kinetic_energies();
     std::vector<std::vector<double>> courses = constraints.courses();
-    archive &sizes &kinetic_energies &courses;
+    archive &sizes &courses;
     p.step.contacts().set_largest_sizes(sizes);
-    p.energy_gains.set_kinetic_energies(kinetic_energies);
     constraints.set_courses(courses);
     archive &p.length &p.step_before &p.segment_start &p.n_in_segment &p.n_steps;
     for (double &size : p.errors.largest_motions)
@@ -462,6 +449,7 @@ namespace taut
         parts->projection ? parts->projection->largest_rates() : std::vector<double>();
     archive << largest_rates;
     reset_caches(largest_rates);
+    energy.save(archive);
     contact_measures.save(archive);
   }
 
@@ -474,6 +462,7 @@ namespace taut
     constraints.update(parts->state.time);
     parts->nonlinear.follow(parts->state);
     reset_caches(largest_rates);
+    energy.load(archive);
     contact_measures.load(archive);
   }
 

@@ -24,7 +24,8 @@ namespace taut
     /// Whether a change after @p before needs more iterations at the same rate.
     bool is_slow(const double change, const double before)
     {
-      return !(change * std::pow(change / before, most_with_a_kept_tangent) <= limits_of_step.converged);
+      return !(change * std::pow(change / before, most_with_a_kept_tangent) <=
+               limits_of_step.converged);
     }
   } // namespace
 

@@ -156,9 +156,8 @@ namespace taut
     position += length();
     bool is_closed = false; // by a contact under way
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      is_closed =
-          is_closed || (longest_steps[i].shortest() < step && motion.state().multiplier[i] > 0. &&
-                        is_moving_contact(i, motion));
+      is_closed = is_closed || (longest_steps[i].shortest() < step &&
+                                motion.state().multiplier[i] > 0. && is_moving_contact(i, motion));
     while (level < n_levels && !is_closed && position % (2 * length()) == 0)
       ++level;
   }

@@ -73,10 +73,10 @@ namespace taut
       takes_part[i] = 1;
       if (contacts.remains_in_contact(i, state))
         continue;
-      acts = acts || std::fabs(state.gap_rate[i]) >
-                         rounding_of_rates *
-                             (contacts.velocity_sizes()[i] +
-                              std::fabs(state.gap_rate[i] - contacts.velocities()[i]));
+      acts =
+          acts || std::fabs(state.gap_rate[i]) >
+                      rounding_of_rates * (contacts.velocity_sizes()[i] +
+                                           std::fabs(state.gap_rate[i] - contacts.velocities()[i]));
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       contacts.rates_before_step()[i] < 0.);
     }
@@ -125,8 +125,7 @@ namespace taut
                                                            ComplementarityOperator &F)
   {
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    softening.follow(contacts.compliance(), F,
-                     masses.is_set_up() ? &masses.interface() : nullptr);
+    softening.follow(contacts.compliance(), F, masses.is_set_up() ? &masses.interface() : nullptr);
     if (some_quasi_static)
     {
       move_quasi_static(state);
@@ -155,8 +154,8 @@ namespace taut
     find(q);
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (takes_part[i] && constraints[i].cone.may_open() &&
-          contacts.rates_before_step()[i] < 0. && c.restitution > 0. && softening[i] == 0.)
+      if (takes_part[i] && constraints[i].cone.may_open() && contacts.rates_before_step()[i] < 0. &&
+          c.restitution > 0. && softening[i] == 0.)
       {
         problem.free_gap[i] += c.restitution * contacts.rates_before_step()[i];
         rebounds = true;
@@ -174,8 +173,7 @@ namespace taut
   /// = @p rebounding for which the contacts of the group give no energy. In a step they do the work
   /// p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, where q stands for q + s r.
   /// This is a convex parabola a s^2 + b s + c in s, not positive at s = 0.
-  void VelocityProjection::add_largest_parts(const ContactStep &contacts,
-                                             const State &state,
+  void VelocityProjection::add_largest_parts(const ContactStep &contacts, const State &state,
                                              const std::vector<double> &rebounding)
   {
     const auto response = [&](const std::vector<double> &impulses)
@@ -238,7 +236,8 @@ namespace taut
     }
   }
 
-  VelocityProjection::Residual VelocityProjection::set_velocities(ContactStep &contacts, State &state)
+  VelocityProjection::Residual VelocityProjection::set_velocities(ContactStep &contacts,
+                                                                  State &state)
   {
     for (std::vector<double> &v : dV)
       std::fill(v.begin(), v.end(), 0.);

@@ -5,8 +5,8 @@
 #include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
-#include <taut/time/static_equilibrium.h>
 #include <taut/time/motion.h>
+#include <taut/time/static_equilibrium.h>
 
 using namespace verification;
 

@@ -15,8 +15,7 @@ namespace
 
   Scheme gaps_then_velocities(const double restitution = 0.)
   {
-    return taut::make_integrator("Moreau-Jean",
-                                 {{"Moreau-Jean/Restitution", number(restitution)}});
+    return taut::make_integrator("Moreau-Jean", {{"Moreau-Jean/Restitution", number(restitution)}});
   }
 
   /// Masses on springs of random size and direction in one or two bodies, 2 to 40 DoFs, and 1 to 20

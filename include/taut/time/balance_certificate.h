@@ -44,8 +44,9 @@ namespace taut
     /**
      * Forms K U and r = P + B N - C V - K U of the state after a step, and the residual() of its
      * equation of motion. @p in_balance are the multipliers in r. @p impulsive are the forces that
-     * act in this step only; empty: none. @p set_rows, if given, sets rows just before their first use, so that both share the cache.
-     * Throws an EntryError on the section of a body with numbers beyond largest_number.
+     * act in this step only; empty: none. @p set_rows, if given, sets rows just before their first
+     * use, so that both share the cache. Throws an EntryError on the section of a body with numbers
+     * beyond largest_number.
      */
     void measure(const StepForces &forces, const std::vector<double> &in_balance,
                  const std::vector<double> &impulsive, State &state, const SetRows &set_rows = {});

@@ -5,7 +5,7 @@
 #include <taut/base/archive_forward.h>
 #include <taut/base/warning.h>
 #include <taut/interface/constraints.h>
-#include <taut/time/link_energies.h>
+#include <taut/time/energy_account.h>
 #include <taut/time/motion_record.h>
 #include <taut/time/state.h>
 #include <taut/time/step_report.h>
@@ -20,15 +20,7 @@ namespace taut
    * Measures of the contacts of a run that show whether the scheme suits them. The certificate of a
    * step shows only that its equations are solved.
    *
-   * Contact energy: the energy that a constraint gave or took beyond its spring and damper, see
-   * LinkEnergies, over the energy of its group of connected bodies. If rigid constraints have mean
-   * forces and conditions on gaps, unexplained gains of the group (StepReport::gains) count, too.
-   *
-   * Momentum: the momentum error of a body after a contact with a wrong energy, over the largest
-   * impulse of its group in the time of such an error.
-   *
-   * Energy of large motions: the sum of unexplained energy gains of a group with a nonlinear body
-   * or a turning constraint, over the energy of the group.
+   * Energy and momentum: see EnergyAccount.
    *
    * Gap: the largest penetration, or gap of a pressing constraint, of rigid unilateral constraints.
    *
@@ -41,7 +33,7 @@ namespace taut
   public:
     /// The arguments but @p start are kept by reference.
     ContactMeasures(const Structure &structure, const Constraints &constraints,
-                    const Reference &reference, const State &start);
+                    const EnergyAccount &energy, const State &start);
 
     /// Whether the scheme was chosen automatically and whether steps are adaptive: the advice of
     /// warnings depends on both.
@@ -51,9 +43,8 @@ namespace taut
       is_adaptive = adaptive;
     }
 
-    /// Records an accepted step, and the external forces @p P at its end minus those of the
-    /// reference. Called by all ranks together.
-    void record(const State &state, const StepReport &report, const BodyVectors &P);
+    /// Records an accepted step, after the account.
+    void record(const State &state, const StepReport &report);
 
     /// Measures so far, for checkpoints.
     void save(OutputArchive &archive);
@@ -65,20 +56,8 @@ namespace taut
     /// Largest impulse of a constraint from closing to opening [N s, N m s].
     double largest_impulse(std::size_t i) const { return forces[i].largest_impulse; }
 
-    struct Summary
+    struct Summary : EnergySummary
     {
-      double contact_energy = 0.;                ///< given and taken by the worst constraint [J]
-      double taken = 0.;                         ///< part of it that the constraint took [J]
-      double scale = 0.;                         ///< energy of its group, see LinkEnergies [J]
-      double relative_energy = 0.;               ///< contact energy over the scale [1]
-      double contact_time = 0., step = 0.;       ///< its shortest contact, and the step then [s]
-      double motion_energy = 0.;                 ///< gained in large motions [J]
-      double relative_motion_energy = 0.;        ///< over the scale [1]
-      std::size_t energy_constraint = 0;         ///< the worst constraint
-      double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
-      double momentum = 0.;                      ///< error of a contact [N s, N m s]
-      double relative_momentum = 0.;             ///< over the impulse of a contact of its group [1]
-      std::size_t momentum_constraint = 0;
       double gap = 0.; ///< [m, rad]
       std::size_t gap_constraint = 0;
       bool gap_drifts = false; ///< more than the motion of a step
@@ -147,28 +126,18 @@ namespace taut
     void store(Archive &archive);
     void add_force(Force &force, double t, double dt, double value);
     static void forget_past(Force &force);
-    void add_gains(const StepReport &report);
-    void find_contact_energy(Summary &result) const;
-    void find_momentum(Summary &result) const;
     std::string energy_message(const Summary &s) const;
     std::string remedy() const;
     void add_gap(std::size_t i, const State &state, const StepReport &report);
     void add_wire_end(std::size_t i, const State &state);
-    void measure_rest(const State &start);
     std::vector<double> resolved_times() const;
 
     const Structure &structure;
     const Constraints &constraints;
-    const Reference &reference;
+    const EnergyAccount &energy;
     std::vector<Force> forces;
-    LinkEnergies energies;
-    std::vector<char> moves_far;                     ///< groups with large motions
-    std::vector<double> contact_gains, motion_gains; ///< of the groups [J]
-    std::vector<double> rest_of_step;                ///< rounding of motion_gains in a step [J]
-    std::vector<std::size_t> first_one_sided;        ///< first unilateral constraint of each group
     bool is_automatic = false, is_adaptive = false;
-    Summary found;
-    long n_steps = 0;
+    Summary found; ///< gaps
   };
 } // namespace taut
 

@@ -151,9 +151,9 @@ namespace taut
     /// What the scheme asks of a row.
     virtual RowRule rule(const RowTraits &) const { return {}; }
 
-    /// Internal forces of bodies that are not linear, and directions of constraints that turn: those
-    /// at the end of the step, or the means of an energy-momentum scheme. A scheme with rules for
-    /// mean forces asks for means.
+    /// Internal forces of bodies that are not linear, and directions of constraints that turn:
+    /// those at the end of the step, or the means of an energy-momentum scheme. A scheme with rules
+    /// for mean forces asks for means.
     virtual ForceTime internal_forces() const { return ForceTime::end; }
 
     /// Frequency of free undamped vibrations above which a step of this length [s] is unstable

@@ -29,7 +29,8 @@ namespace taut
     LocalError(const Structure &structure, const Constraints &constraints,
                const Reference &reference);
 
-    /// Local error of a step to @p state, after a step of @p step_before [s] with final accelerations
+    /// Local error of a step to @p state, after a step of @p step_before [s] with final
+    /// accelerations
     /// @p old_A. Called by all ranks together.
     double measure(const State &state, const StepMethod &method, double step_before,
                    const BodyVectors &old_A);

@@ -6,7 +6,7 @@
 #include <taut/base/start.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/contact_measures.h>
-#include <taut/time/energy_gains.h>
+#include <taut/time/energy_account.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/load_sampling.h>
 #include <taut/time/local_error.h>
@@ -59,7 +59,7 @@ namespace taut
    *     finds multipliers and increments, accepts
    *     and certifies them                           Step
    *     projects the velocities, with some schemes   VelocityProjection
-   *     and tells what it did                        StepReport, EnergyGains, ContactMeasures.
+   *     and tells what it did                        StepReport, EnergyAccount, ContactMeasures.
    *
    * With nonlinear bodies or turning constraints, NonlinearStep iterates to the increments.
    * StepControl says how long the next step is, and takes back one that is too long. All ranks call
@@ -207,7 +207,6 @@ namespace taut
       Step step;
       LoadSampling loads;
       LocalError errors;
-      EnergyGains energy_gains;
       std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
       StepControl control;
       Before before;
@@ -230,7 +229,6 @@ namespace taut
     void attempt(const std::function<void()> &work);
     void solve();
     void project_velocities();
-    void measure_energy();
     void check_moving_contacts();
     template <typename Archive>
     void store(Archive &archive);
@@ -240,12 +238,13 @@ namespace taut
     Constraints &constraints;
     const StepperOptions options;
     InitialState initial;
+    EnergyAccount energy;
     ContactMeasures contact_measures;
     SchemeChoice chosen;
     std::unique_ptr<ContactResolution> resolved; ///< until the first step
     std::shared_ptr<const TimeIntegrator> integrator;
     std::shared_ptr<const TimeIntegrator> first_scheme; ///< of the first step
-    std::vector<LongestStep> longest_steps; ///< of constraints with dampers
+    std::vector<LongestStep> longest_steps;             ///< of constraints with dampers
     std::unique_ptr<Parts> parts;
     StepReport no_report; ///< before the first step
     StepCosts no_costs;   ///< of a motion that is not prepared

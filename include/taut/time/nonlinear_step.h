@@ -24,8 +24,8 @@ namespace taut
     /// search for.
     bool is_linear() const { return bodies_are_linear && turning.empty(); }
 
-    /// After a change of the method, for steps from @p state on. Throws EntryError for a scheme that
-    /// does not suit constraints that turn.
+    /// After a change of the method, for steps from @p state on. Throws EntryError for a scheme
+    /// that does not suit constraints that turn.
     void prepare(const State &state);
 
     /// Takes the directions of the constraints from a state.

@@ -14,8 +14,8 @@ namespace taut
   /// what it asks of each row. Motion sets it for each length of steps; statics leave it at rest.
   struct StepMethod
   {
-    StepCoefficients c;  ///< zero: an equilibrium at rest
-    double length = 0.;  ///< of a step [s]
+    StepCoefficients c; ///< zero: an equilibrium at rest
+    double length = 0.; ///< of a step [s]
     ForceTime internal_forces = ForceTime::end;
     bool corrects_velocities = false; ///< a VelocityProjection follows each step
     std::vector<RowRule> rules;       ///< of each row

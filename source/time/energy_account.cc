@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/dot.h>
+#include <taut/time/energy_account.h>
+#include <taut/time/matrix_norms.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace taut
+{
+  namespace
+  {
+    /// Steps between two measurements of the scale of contact energy: one costs a tenth of a step.
+    constexpr long steps_between_scales = 16;
+
+    /// Part of the energy of the reference that is rounding in a long run at rest.
+    constexpr double rounding_of_energy = 1e-8;
+
+    /// Part of the energy of a nonlinear body that is rounding in a step, and the rotation through
+    /// which rounding of moments may do work [rad].
+    constexpr double rounding_of_step = 1e-14, noise_turn = 1e-2;
+
+    /// Part of the energy of a contact below which a step does not change it.
+    constexpr double small_change = 1e-2;
+
+    /// Part of its speed at which a body has got most of the impulse of an impact.
+    constexpr double slow = .5;
+  } // namespace
+
+  EnergyAccount::EnergyAccount(const Structure &structure, const Constraints &constraints,
+                               const Reference &reference, const State &start)
+      : structure(structure), constraints(constraints), reference(reference),
+        connected(structure, constraints), masses(total_masses(structure)),
+        rows(constraints.size()), groups(connected.n_groups()), kinetic(groups.size(), 0.)
+  {
+    bool moves_here = false;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      moves_here = moves_here || structure[k].has_moving_constraints();
+    supports_move = structure.communicator().any(moves_here);
+    work.resize(rows.size());
+    terms.resize(rows.size());
+    constraints.share_of_motions(reference.displacement, work, terms);
+    structure.communicator().sum(terms);
+    for (std::size_t i = rows.size(); i-- > 0;)
+    {
+      Row &row = rows[i];
+      row.multiplier = start.multiplier[i];
+      row.gap = start.gap[i] - constraints.distance_beyond(i, start.time);
+      row.u = start.link_springs[i].u;
+      row.noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
+      row.begin = start.time;
+      if (constraints[i].cone.may_open())
+        groups[connected.of_constraint(i)].first_one_sided = i;
+    }
+    set_rest(start);
+    measure_scale(start, {});
+    add_kinetic_energies(start.V, kinetic);
+    structure.communicator().sum(kinetic);
+  }
+
+  /// Finds what is rounding, and groups with large motions.
+  void EnergyAccount::set_rest(const State &start)
+  {
+    const std::size_t n = groups.size();
+    std::vector<double> n_nonlinear(n, 0.), at_rest(n, 0.), of_step(n, 0.);
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
+          {
+            const Substructure &body = structure[k];
+            const std::size_t g = connected.of_body(k);
+            at_rest[g] +=
+                .5 * std::fabs(dot_in_lanes(reference.displacement[k], reference.force[k]));
+            if (body.is_linear())
+              continue;
+            n_nonlinear[g] += 1.;
+            of_step[g] += rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
+                          noise_turn * body.rounding_of_force(1);
+          }
+        });
+    for (std::vector<double> *const sum : {&n_nonlinear, &at_rest, &of_step})
+      structure.communicator().sum(*sum);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      at_rest[connected.of_constraint(i)] +=
+          std::fabs(start.multiplier[i]) * rows[i].noise / rounding_of_gaps;
+    for (const std::size_t i : constraints.turning_rows())
+      n_nonlinear[connected.of_constraint(i)] += 1.;
+    for (std::size_t g = 0; g < n; ++g)
+    {
+      groups[g].rest = rounding_of_energy * at_rest[g];
+      groups[g].rest_of_step = of_step[g];
+      groups[g].moves_far = n_nonlinear[g] > 0.;
+    }
+  }
+
+  bool EnergyAccount::has_large_motions() const
+  {
+    return std::any_of(groups.begin(), groups.end(),
+                       [](const Group &group) { return group.moves_far; });
+  }
+
+  void EnergyAccount::measure(Step &step, NonlinearStep &nonlinear, const State &state)
+  {
+    const StepMethod &method = step.report().method;
+    bool on_velocities = false;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      on_velocities =
+          on_velocities || (constraints[i].cone.may_open() && method.rules[i].is_on_velocity());
+    if (method.has_means())
+    {
+      if (!on_velocities && (!rows.empty() || !nonlinear.is_linear()))
+        measure_means(step, nonlinear, state);
+    }
+    else if (!nonlinear.is_linear() && method.c.is_backward_euler())
+      measure_at_ends(step, nonlinear, state);
+  }
+
+  /// Adds V . M V / 2 of each body to its group.
+  void EnergyAccount::add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      work.resize(V[k].size());
+      structure[k].mass().vmult_rows(0, work.size(), V[k].data(), work.data());
+      of_groups[connected.of_body(k)] += .5 * dot_in_lanes(V[k], work);
+    }
+  }
+
+  void EnergyAccount::add_surplus(NonlinearStep &nonlinear, const double theta, const State &state,
+                                  double *const of_groups)
+  {
+    const auto add = [&]
+    {
+      for (const std::size_t k : nonlinear.bodies().indices())
+        of_groups[connected.of_body(k)] += nonlinear.bodies().energy_surplus(k, theta, state);
+    };
+    structure.communicator().agree(std::ref(add)); // a reference allocates nothing
+  }
+
+  /// Contribution of a constraint with a mean force: the change of its spring energy, or minus its
+  /// work if it slides.
+  double EnergyAccount::gain_of_spring(const std::size_t i, const State &state,
+                                       const StepReport &report) const
+  {
+    const ConstraintSpring &own = constraints[i].spring;
+    if (!report.is_mean(i))
+      return 0.;
+    if (constraints.slides(i))
+      return -report.work[i];
+    if (own.is_rigid())
+      return 0.;
+    const RowStates::LinkSpring &spring = state.link_springs[i];
+    const double before = spring.u - spring.du;
+    return own.law ? own.law->mean_force(before, spring.u) * spring.du
+                   : .5 * own.stiffness * (spring.u * spring.u - before * before);
+  }
+
+  void EnergyAccount::measure_means(Step &step, NonlinearStep &nonlinear, const State &state)
+  {
+    const std::size_t n = groups.size();
+    StepReport &report = step.report();
+    sums.assign(2 * n, 0.);
+    add_surplus(nonlinear, .5, state, sums.data() + n);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      sums[n + connected.of_body(k)] -= step.balance().work(k);
+    add_kinetic_energies(state.V, sums);
+    structure.communicator().sum(sums);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      sums[n + connected.of_constraint(i)] += gain_of_spring(i, state, report);
+    report.gains.assign(n, 0.);
+    for (std::size_t g = 0; g < n; ++g)
+    {
+      if (!supports_move)
+        report.gains[g] = sums[g] - kinetic[g] + sums[n + g];
+      kinetic[g] = sums[g];
+    }
+  }
+
+  void EnergyAccount::measure_at_ends(Step &step, NonlinearStep &nonlinear, const State &state)
+  {
+    std::vector<double> lost(groups.size(), 0.);
+    sums.assign(groups.size(), 0.);
+    add_surplus(nonlinear, 1., state, sums.data());
+    BodyVectors change = state.V;
+    for (std::size_t k = 0; k < change.size(); ++k)
+      for (std::size_t i = 0; i < change[k].size(); ++i)
+        change[k][i] -= state.V_old[k][i];
+    add_kinetic_energies(change, lost);
+    for (std::size_t g = 0; g < sums.size(); ++g)
+      sums[g] -= lost[g];
+    structure.communicator().sum(sums);
+    for (const std::size_t i : constraints.turning_rows())
+      sums[connected.of_constraint(i)] +=
+          nonlinear.constraints().surplus(i, state.multiplier[i], step.contacts().increments()[i]);
+    step.report().gains = sums;
+  }
+
+  void EnergyAccount::record(const State &state, const StepReport &report, const BodyVectors &P)
+  {
+    ++n_steps;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (state.multiplier[i] > 0. && constraints[i].cone.may_open())
+        impulse_of(i) += state.multiplier[i] * state.last_step;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (constraints[i].cone.may_open())
+        record_row(i, state, report);
+    add_gains(report);
+    if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
+      measure_scale(state, P);
+  }
+
+  /// Without a unilateral constraint, no contact can have caused a gain.
+  void EnergyAccount::add_gains(const StepReport &report)
+  {
+    for (std::size_t g = 0; g < report.gains.size(); ++g)
+    {
+      const double gain = std::max(0., report.gains[g]);
+      if (groups[g].first_one_sided != no_link && report.method.has_means())
+        groups[g].contact_gains += gain;
+      if (groups[g].moves_far)
+        groups[g].motion_gains += gain;
+    }
+  }
+
+  double &EnergyAccount::impulse_of(const std::size_t i)
+  {
+    return groups[connected.of_constraint(i)].impulse[constraints[i].rotational ? 1 : 0];
+  }
+
+  /// Energy that a constraint gives in a step, beyond its spring and damper.
+  double EnergyAccount::gain(const std::size_t i, const State &state,
+                             const StepReport &report) const
+  {
+    const ConstraintData &constraint = constraints[i];
+    const Row &row = rows[i];
+    // What a contact stores is lost where its wire ends, and not by the step.
+    if (constraints.distance_beyond(i, state.time) > 0.)
+      return 0.;
+    const double change = state.gap[i] - row.gap;
+    const bool is_mean = report.is_mean(i);
+    if (is_mean && !constraints.slides(i))
+    {
+      if (constraint.spring.is_rigid())
+        return report.work[i];
+      const State::LinkSpring &spring = state.link_springs[i];
+      const double with_damper =
+          report.work[i] + constraint.spring.energy(spring.u) - constraint.spring.energy(row.u);
+      // A contact with a damper ends at zero force. The damper takes the remaining energy of the
+      // spring, all of it within part of a step.
+      if (constraint.spring.damping > 0. && !(row.multiplier > 0. && state.multiplier[i] > 0.))
+        return std::max(0., with_damper);
+      return with_damper + constraint.spring.damping * spring.du * spring.du / state.last_step;
+    }
+    if (!(std::fabs(change) > row.noise))
+      return 0.;
+    return is_mean ? state.multiplier[i] * change
+                   : .5 * (row.multiplier + state.multiplier[i]) * change;
+  }
+
+  void EnergyAccount::add_contact(Contacts &contacts, const Row &row, const double end)
+  {
+    const double energy = std::fabs(row.closing);
+    (row.closing > 0. ? contacts.given : contacts.taken) += energy;
+    if (row.fastest > 0.)
+      contacts.momentum = std::max(contacts.momentum, 2. * energy / row.fastest);
+    contacts.impulse = std::max(contacts.impulse, row.impulse_until - row.impulse_before);
+    if (!(energy > contacts.largest))
+      return;
+    contacts.largest = energy;
+    contacts.begin = row.begin;
+    contacts.end = end;
+  }
+
+  void EnergyAccount::record_row(const std::size_t i, const State &state, const StepReport &report)
+  {
+    Row &row = rows[i];
+    // A closed elastic constraint moves with its spring. Rounding of the gap has no speed.
+    const double gap = state.gap[i] - constraints.distance_beyond(i, state.time);
+    const double moved = std::fabs(gap - row.gap) + std::fabs(state.link_springs[i].u - row.u),
+                 N = state.multiplier[i], rate = std::max(moved, row.noise) / state.last_step;
+    if (row.multiplier > 0. || N > 0.)
+    {
+      if (!(row.multiplier > 0.))
+      {
+        row.begin = state.time - state.last_step;
+        row.fastest = row.rate;
+        row.impulse_before = row.impulse;
+        row.is_fast = true;
+      }
+      row.fastest = std::max(row.fastest, rate);
+      const RowRule &rule = report.method.rules[i];
+      double change = 0.;
+      if (!constraints[i].spring.is_rigid())
+        change = this->gain(i, state, report);
+      else if (!rule.is_mean() || rule.is_on_velocity()) // other gains count in groups
+        change = std::max(0., this->gain(i, state, report));
+      row.closing += change;
+      if (row.is_fast || std::fabs(change) > small_change * std::fabs(row.closing))
+        row.impulse_until = impulse_of(i);
+      row.is_fast = row.is_fast && moved > row.noise && rate > slow * row.fastest;
+      if (!(N > 0.))
+      {
+        add_contact(row.contacts, row, state.time);
+        row.contacts.step = state.last_step;
+        row.contacts.shortest = std::min(row.contacts.shortest, state.time - row.begin);
+        row.closing = 0.;
+      }
+    }
+    row.multiplier = N;
+    row.rate = rate;
+    row.end = state.time;
+    row.gap = gap;
+    row.u = state.link_springs[i].u;
+    row.impulse = impulse_of(i);
+  }
+
+  /// With the contact under way.
+  EnergyAccount::Contacts EnergyAccount::contacts_of(const std::size_t i) const
+  {
+    Contacts result = rows[i].contacts;
+    if (rows[i].closing != 0.)
+      add_contact(result, rows[i], rows[i].end);
+    return result;
+  }
+
+  /// Energy that the loads give a free body in one step: at rest, motions are rounding of it [J].
+  double EnergyAccount::energy_of_loads(const std::size_t k, const std::vector<double> &P,
+                                        const double step) const
+  {
+    if (!(masses[k] > 0.))
+      return 0.;
+    double force = 0.;
+    for (unsigned int i = 0; i < P.size(); ++i)
+      if (structure[k].kind(i) == 0)
+        force += std::fabs(P[i] + reference.force[k][i]);
+    const double speed = step * force / masses[k];
+    return .5 * masses[k] * speed * speed;
+  }
+
+  void EnergyAccount::measure_scale(const State &state, const BodyVectors &P)
+  {
+    const std::size_t n = groups.size();
+    sums.assign(3 * n, 0.);
+    springs.assign(n, 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      work.assign(body.n_dofs(), 0.);
+      body.mass().vmult_add(.5, state.V[k].data(), work.data());
+      sums[connected.of_body(k)] += dot_in_lanes(work, state.V[k]);
+      sums[n + connected.of_body(k)] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
+      if (!P.empty())
+        sums[2 * n + connected.of_body(k)] += energy_of_loads(k, P[k], state.last_step);
+    }
+    structure.communicator().sum(sums);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.link_springs[i].u);
+    for (std::size_t g = 0; g < n; ++g)
+    {
+      groups[g].kinetic = std::max(groups[g].kinetic, sums[g]);
+      groups[g].strain = std::max(groups[g].strain, std::fabs(sums[n + g]));
+      groups[g].springs = std::max(groups[g].springs, springs[g]);
+      groups[g].loads = std::max(groups[g].loads, sums[2 * n + g]);
+    }
+    work.assign(rows.size(), 0.);
+    constraints.share_of_motions(state.U, work, terms);
+    structure.communicator().sum(terms);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].noise = std::max(rows[i].noise, rounding_of_gaps * terms[i]);
+  }
+
+  EnergySummary EnergyAccount::summary() const
+  {
+    EnergySummary result;
+    find_energy(result);
+    find_momentum(result);
+    return result;
+  }
+
+  /// Finds the group with most contact energy, and its worst constraint.
+  void EnergyAccount::find_energy(EnergySummary &result) const
+  {
+    struct Sums
+    {
+      double given = 0., taken = 0., worst = 0.;
+      std::size_t row = no_link;
+    };
+    std::vector<Sums> of_groups;
+    for (const Group &group : groups)
+      of_groups.push_back({group.contact_gains, 0., 0., group.first_one_sided});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (!constraints[i].cone.may_open())
+        continue;
+      const Contacts contacts = contacts_of(i);
+      Sums &own = of_groups[connected.of_constraint(i)];
+      own.given += contacts.given;
+      own.taken += contacts.taken;
+      if (!(contacts.given + contacts.taken > own.worst))
+        continue;
+      own.worst = contacts.given + contacts.taken;
+      own.row = i;
+    }
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+      const Sums &own = of_groups[g];
+      const double energy = own.given + own.taken, scale = groups[g].scale();
+      if (own.row != no_link && energy > result.relative_energy * scale)
+      {
+        const Contacts contacts = contacts_of(own.row);
+        result.relative_energy = energy / scale;
+        result.contact_energy = energy;
+        result.taken = own.taken;
+        result.scale = scale;
+        result.energy_constraint = own.row;
+        result.energy_begin = contacts.begin;
+        result.energy_end = contacts.end;
+        result.contact_time = std::isfinite(contacts.shortest) ? contacts.shortest : 0.;
+        result.step = contacts.step;
+      }
+      const double gain = groups[g].motion_gains - n_steps * groups[g].rest_of_step;
+      result.motion_energy += groups[g].motion_gains;
+      if (gain > 0.)
+        result.relative_motion_energy = std::max(result.relative_motion_energy, gain / scale);
+    }
+  }
+
+  void EnergyAccount::find_momentum(EnergySummary &result) const
+  {
+    struct Worst
+    {
+      double impulse = 0., momentum = 0.;
+      std::size_t constraint = 0;
+    };
+    std::vector<Worst> worst(groups.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (constraints[i].cone.may_open())
+      {
+        const Contacts contacts = contacts_of(i);
+        Worst &own = worst[connected.of_constraint(i)];
+        own.impulse = std::max(own.impulse, contacts.impulse);
+        if (!(contacts.momentum > own.momentum))
+          continue;
+        own.momentum = contacts.momentum;
+        own.constraint = i;
+      }
+    for (const Worst &w : worst)
+      if (w.impulse > 0. && w.momentum > result.relative_momentum * w.impulse)
+      {
+        result.momentum = w.momentum;
+        result.relative_momentum = w.momentum / w.impulse;
+        result.momentum_constraint = w.constraint;
+      }
+  }
+
+  template <typename Archive>
+  void EnergyAccount::store(Archive &archive)
+  {
+    for (Row &row : rows)
+      archive &row;
+    for (Group &group : groups)
+      archive &group;
+    archive &kinetic &n_steps;
+  }
+
+  template void EnergyAccount::store(OutputArchive &);
+  template void EnergyAccount::store(InputArchive &);
+} // namespace taut
