@@ -7,7 +7,6 @@ namespace taut
   void CostTable::begin(const RunView &run)
   {
     interval = run.interval;
-    run.costs.measure_all();
     if (!run.communicator.is_root())
       return;
     std::vector<std::string> columns = {"time [s]", "steps [1]"};
@@ -24,7 +23,6 @@ namespace taut
       return;
     time = step.state.time;
     of_line.n_steps += now.n_steps - before.n_steps;
-    of_line.measured += now.measured - before.measured;
     of_line.n_newton += now.n_newton - before.n_newton;
     for (std::size_t i = 0; i < n_step_parts; ++i)
       of_line.parts[i] += now.parts[i] - before.parts[i];
@@ -60,8 +58,7 @@ namespace taut
   void CostTable::save(OutputArchive &archive)
   {
     const std::size_t length = file ? file->save() : 0;
-    archive << next << time << iterations << of_line.n_steps << of_line.measured
-            << of_line.n_newton;
+    archive << next << time << iterations << of_line.n_steps << of_line.n_newton;
     for (const double seconds : of_line.parts)
       archive << seconds;
     archive << length;
@@ -70,8 +67,7 @@ namespace taut
   void CostTable::resume(InputArchive &archive, const StepView &step)
   {
     std::size_t length = 0;
-    archive >> next >> time >> iterations >> of_line.n_steps >> of_line.measured >>
-        of_line.n_newton;
+    archive >> next >> time >> iterations >> of_line.n_steps >> of_line.n_newton;
     for (double &seconds : of_line.parts)
       archive >> seconds;
     archive >> length;

@@ -189,9 +189,7 @@ namespace taut
 
   CompiledFormula::CompiledFormula(const std::string &text,
                                    const std::vector<std::string> &variables, const Tables &tables)
-      : text(one_formula(text)), variables(variables), tables(tables),
-        owner(std::this_thread::get_id()),
-        program(std::make_unique<Program>(this->text, variables, tables))
+      : tables(tables), program(std::make_unique<Program>(one_formula(text), variables, tables))
   {
   }
 
@@ -199,15 +197,7 @@ namespace taut
 
   double CompiledFormula::operator()(const Values &values)
   {
-    return std::this_thread::get_id() == owner ? (*program)(values) : on_another_thread(values);
-  }
-
-  double CompiledFormula::on_another_thread(const Values &values)
-  {
     const std::lock_guard<std::mutex> lock(mutex);
-    std::unique_ptr<Program> &own = others[std::this_thread::get_id()];
-    if (!own)
-      own = std::make_unique<Program>(text, variables, tables);
-    return (*own)(values);
+    return (*program)(values);
   }
 } // namespace taut

@@ -5,12 +5,10 @@
 #include "tabulated_function.h"
 
 #include <array>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace taut
@@ -25,8 +23,7 @@ namespace taut
   /**
    * A formula in the syntax of deal.II's FunctionParser, compiled once by muParser with its
    * constants folded. Use it where a formula is evaluated in each step: an evaluation allocates
-   * nothing, and takes no lock on the thread that made the formula. Other threads compile the
-   * formula once more each, and wait for one another.
+   * nothing. Threads wait for one another.
    */
   class CompiledFormula
   {
@@ -49,15 +46,9 @@ namespace taut
   private:
     class Program;
 
-    double on_another_thread(const Values &values);
-
-    const std::string text;
-    const std::vector<std::string> variables;
-    const Tables tables;
-    const std::thread::id owner;
-    std::unique_ptr<Program> program; ///< of the owner
-    std::mutex mutex;                 ///< of the other threads
-    std::map<std::thread::id, std::unique_ptr<Program>> others;
+    const Tables tables; ///< which the program uses
+    std::unique_ptr<Program> program;
+    std::mutex mutex;
   };
 } // namespace taut
 

@@ -21,7 +21,7 @@ namespace taut
   namespace
   {
     /// First line of the file. The version changes with the stored data.
-    const std::string first_line = "Taut checkpoint, version 11\n";
+    const std::string first_line = "Taut checkpoint, version 12\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
     std::string checksum(const std::string &bytes)
@@ -65,11 +65,9 @@ namespace taut
   {
     const std::string content = archived([&](OutputArchive &archive) { archive << checkpoint; });
     const std::string path = folder + "/" + checkpoint_names[0];
-    // Between both renames only the old checkpoint exists, which is enough. A damaged one must not
-    // replace a good one.
-    Checkpoint last;
+    // Between both renames only the old checkpoint exists, which is enough.
     const std::string before = folder + "/" + checkpoint_names[1];
-    if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
+    if (std::rename(path.c_str(), before.c_str()) != 0 && errno != ENOENT)
       throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
                        "; check that its folder is writable and the disk not full");
     replace_file(path, first_line + checksum(content) + content);

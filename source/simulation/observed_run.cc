@@ -90,8 +90,7 @@ namespace taut
             if (processes().is_root())
               std::filesystem::create_directories(folder);
           });
-    const RunView run = {folder, interval, processes(), motion.costs(),
-                         checkpoints && checkpoints->is_found()};
+    const RunView run = {folder, interval, processes(), checkpoints && checkpoints->is_found()};
     each([&](Observer &observer) { observer.begin(run); });
   }
 

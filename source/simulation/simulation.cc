@@ -176,9 +176,8 @@ namespace taut
   {
     if (parameters.check_steps == "no" || n_steps() == 0)
       return nullptr;
-    RunInSteps run = motion->run_in_steps(n_steps());
-    run.at_any_cost = parameters.check_steps == "yes";
-    run.other_cause = warning_of_joints(model);
+    RunInSteps run = {*motion, n_steps(), parameters.check_steps == "yes",
+                      warning_of_joints(model)};
     const bool is_wanted =
         run.at_any_cost || (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run));
     return is_wanted ? std::make_unique<StepAccuracy>(std::move(run)) : nullptr;

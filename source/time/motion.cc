@@ -42,6 +42,13 @@ namespace taut
       options.allow_unsuitable_scheme = true; // as far as the other motion may, this one may, too
       return options;
     }
+
+    Constraints &with_courses(Constraints &constraints,
+                              const std::vector<std::vector<double>> &courses)
+    {
+      constraints.set_courses(courses);
+      return constraints;
+    }
   } // namespace
 
   Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
@@ -57,7 +64,8 @@ namespace taut
 
   Motion::Motion(Motion &other, const double step, const StepParameters &steps,
                  std::vector<LongestStep> longest_steps, const long n_steps)
-      : Motion(other.structure, other.constraints, in_other_steps(other.options, step, steps),
+      : Motion(other.structure, with_courses(other.constraints, other.first_courses),
+               in_other_steps(other.options, step, steps),
                other.initial, other.integrator, n_steps, std::move(longest_steps))
   {
   }
@@ -418,12 +426,6 @@ namespace taut
   std::vector<std::size_t> Motion::repeated_joints() const
   {
     return parts->step.equations().repeated_rows().all_partners();
-  }
-
-  RunInSteps Motion::run_in_steps(const long n_steps)
-  {
-    return {*this,   structure,     constraints,       options.steps, options.step,
-            n_steps, longest_steps, initial.reference, initial.state};
   }
 
   template <typename Archive>

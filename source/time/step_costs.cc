@@ -10,11 +10,6 @@ namespace taut
 {
   namespace
   {
-    /// A step has some 12 parts, and a clock takes some 30 ns. Steps below this length [s] are
-    /// measured once in so many.
-    constexpr double short_step = 2e-4;
-    constexpr int one_in = 8;
-
     /// Share below which a part has no line in the log.
     constexpr double negligible = 5e-4;
   } // namespace
@@ -35,35 +30,27 @@ namespace taut
     begun = before = Clock::now();
     if (all.n_steps > 0)
       all.parts[static_cast<std::size_t>(StepPart::output)] += seconds(ended, begun);
-    if (measures_all)
-      weight = wait = 1;
-    is_measured = --wait <= 0;
+    is_in_step = true;
   }
 
   void StepCosts::end_step()
   {
     ended = Clock::now();
-    const double step = seconds(begun, ended);
     ++all.n_steps;
-    all.stepping += step;
-    if (!is_measured)
-      return;
-    is_measured = false;
-    all.measured += weight;
-    weight = wait = step < short_step ? one_in : 1;
+    all.stepping += seconds(begun, ended);
+    is_in_step = false;
   }
 
   void StepCosts::add(const StepPart part)
   {
     const Clock::time_point now = Clock::now();
-    all.parts[static_cast<std::size_t>(part)] += weight * seconds(before, now);
+    all.parts[static_cast<std::size_t>(part)] += seconds(before, now);
     before = now;
   }
 
   double StepCosts::mean(const Sums &sums, const StepPart part)
   {
-    const double n = part == StepPart::output ? static_cast<double>(sums.n_steps) : sums.measured;
-    return n > 0. ? sums.parts[static_cast<std::size_t>(part)] / n : 0.;
+    return sums.n_steps > 0 ? sums.parts[static_cast<std::size_t>(part)] / sums.n_steps : 0.;
   }
 
   void StepCosts::print(std::ostream &log) const

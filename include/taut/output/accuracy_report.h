@@ -3,7 +3,7 @@
 #define taut_accuracy_report_h
 
 #include <taut/output/observer.h>
-#include <taut/time/step_accuracy.h>
+#include <taut/output/step_accuracy.h>
 
 #include <functional>
 #include <memory>

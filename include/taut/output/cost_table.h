@@ -18,7 +18,7 @@ namespace taut
    * Newton iterations, with those of repeated steps, and of active-set iterations [1]. Output is
    * that from the end of a step to the next.
    *
-   * All steps are measured. Wall times differ from run to run, also after a checkpoint.
+   * Wall times differ from run to run, also after a checkpoint.
    */
   class CostTable : public Observer
   {

@@ -56,7 +56,6 @@ namespace taut
     const std::string &folder; ///< of the results, exists
     double interval;           ///< Output/Interval: least time between two lines of a table [s]
     const Communicator &communicator;
-    StepCosts &costs;     ///< of the steps to come
     bool resumes = false; ///< files continue from the checkpoint, see Observer::resume()
   };
 

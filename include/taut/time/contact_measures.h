@@ -6,7 +6,6 @@
 #include <taut/base/warning.h>
 #include <taut/interface/constraints.h>
 #include <taut/time/energy_account.h>
-#include <taut/time/motion_record.h>
 #include <taut/time/state.h>
 #include <taut/time/step_report.h>
 
@@ -71,7 +70,7 @@ namespace taut
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
 
     /// Part of the impulse above which a momentum error is a warning.
-    static constexpr double suspicious_momentum = MotionDifference::impulse_bound;
+    static constexpr double suspicious_momentum = .02;
 
     /// Resolution above which the report mentions it.
     static constexpr double unresolved = 3.;

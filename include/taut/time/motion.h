@@ -12,7 +12,6 @@
 #include <taut/time/local_error.h>
 #include <taut/time/nonlinear_step.h>
 #include <taut/time/step.h>
-#include <taut/time/step_accuracy.h>
 #include <taut/time/step_control.h>
 #include <taut/time/velocity_projection.h>
 
@@ -119,6 +118,7 @@ namespace taut
     /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return contact_measures; }
 
+    const StepperOptions &settings() const { return options; }
     const Structure &bodies() const { return structure; }
     const Constraints &links() const { return constraints; }
 
@@ -128,6 +128,9 @@ namespace taut
     std::string scheme_and_reason() const;
 
     // Of a prepared motion:
+
+    /// For each constraint with a damper the longest step in a contact; empty: any.
+    const std::vector<LongestStep> &longest_steps_in_contacts() const { return longest_steps; }
 
     /// Newton iterations so far; 0 if all bodies are linear and no constraint turns.
     long n_newton_iterations() const { return parts->nonlinear.n_iterations(); }
@@ -144,7 +147,6 @@ namespace taut
     /// Where the time of the steps goes; those of a prepared motion differ from those before.
     StepCosts &costs() { return parts ? parts->step.costs() : no_costs; }
     const StepCosts &costs() const { return parts ? parts->step.costs() : no_costs; }
-    RunInSteps run_in_steps(long n_steps);
 
     /// Stores all data of later steps but the vectors of the bodies, equal on all ranks. Then, like
     /// load(), resets factors, F and search, whose rounding depends on earlier steps: a run that
@@ -246,6 +248,7 @@ namespace taut
     std::shared_ptr<const TimeIntegrator> first_scheme; ///< of the first step
     std::vector<LongestStep> longest_steps;             ///< of constraints with dampers
     std::unique_ptr<Parts> parts;
+    std::vector<std::vector<double>> first_courses; ///< of sliding rows at the start
     StepReport no_report; ///< before the first step
     StepCosts no_costs;   ///< of a motion that is not prepared
   };

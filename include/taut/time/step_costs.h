@@ -42,9 +42,8 @@ namespace taut
    *     costs.lap(StepPart::contacts);   // ends here
    *     costs.end_step();                // output follows until the next begin_step()
    *
-   * A step below 0.2 ms is measured in parts once in eight steps and stands for all eight, so that
-   * clocks cost less than 1 % of it. The first step and all longer ones are measured each. Steps
-   * are not measured between end_step() and begin_step(), and in programs that call neither.
+   * A step has some 12 parts, and a clock takes some 30 ns. Nothing is measured between end_step()
+   * and begin_step(), and in programs that call neither.
    */
   class StepCosts
   {
@@ -53,14 +52,10 @@ namespace taut
     struct Sums
     {
       long n_steps = 0;
-      double measured = 0.;                        ///< steps that the measured ones stand for
       double stepping = 0.;                        ///< time of all steps without output [s]
-      std::array<double, n_step_parts> parts = {}; ///< of the measured steps; output: of all [s]
+      std::array<double, n_step_parts> parts = {}; ///< [s]
       long n_newton = 0;                           ///< solves of Newton's method
     };
-
-    /// Measures all steps from now on, however short.
-    void measure_all() { measures_all = true; }
 
     void begin_step();
     void end_step();
@@ -68,7 +63,7 @@ namespace taut
     /// Ends a part of the step.
     void lap(const StepPart part)
     {
-      if (is_measured)
+      if (is_in_step)
         add(part);
     }
 
@@ -94,9 +89,7 @@ namespace taut
 
     Sums all;
     Clock::time_point begun, before, ended;
-    bool is_measured = false, measures_all = false;
-    int weight = 1; ///< steps for which the next measured one stands
-    int wait = 1;   ///< steps until then
+    bool is_in_step = false;
   };
 } // namespace taut
 

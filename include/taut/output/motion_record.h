@@ -4,7 +4,7 @@
 
 #include <taut/base/archive_forward.h>
 #include <taut/interface/connected_bodies.h>
-#include <taut/time/impulse_record.h>
+#include <taut/output/impulse_record.h>
 #include <taut/time/state.h>
 
 #include <array>

@@ -3,8 +3,8 @@
 #define taut_step_accuracy_h
 
 #include <taut/base/warning.h>
-#include <taut/time/motion_record.h>
-#include <taut/time/step_control.h>
+#include <taut/output/motion_record.h>
+#include <taut/time/motion.h>
 
 #include <functional>
 #include <optional>
@@ -13,20 +13,12 @@
 
 namespace taut
 {
-  class Motion;
-
-  /// A run from start to end, with all that another run in other steps needs. References are kept.
+  /// A run from start to end that may be made once more in other steps.
   struct RunInSteps
   {
     Motion &motion;
-    const Structure &structure;
-    Constraints &constraints;
-    const StepParameters &control;
-    double step;                            ///< [s]
-    long n_steps;                           ///< of this length
-    std::vector<LongestStep> longest_steps; ///< see StepControl
-    const Reference &reference;
-    const State &start;
+    long n_steps; ///< of the length of its options
+
     bool at_any_cost = false;     ///< allows other runs at any cost
     std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
   };
@@ -77,7 +69,6 @@ namespace taut
 
     const RunInSteps run;
     const ConnectedBodies groups;
-    const std::vector<std::vector<double>> courses; ///< of moving constraints at the start
     const double work;                              ///< of the run: DoFs times steps
     const std::size_t n_samples;
     const double interval; ///< between samples [s]

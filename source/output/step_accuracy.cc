@@ -2,8 +2,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
-#include <taut/time/motion.h>
-#include <taut/time/step_accuracy.h>
+#include <taut/output/step_accuracy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,27 +59,28 @@ namespace taut
 
     double interval_of(const RunInSteps &run)
     {
-      return run.step * std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
+      return run.motion.settings().step *
+             std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
     }
 
     double work_of(const RunInSteps &run)
     {
       double n_dofs = 0., n_nonlinear = 0.;
-      for (const Structure::Body &body : run.structure.all_bodies())
+      for (const Structure::Body &body : run.motion.bodies().all_bodies())
         n_dofs += static_cast<double>(body.n_dofs);
-      for (std::size_t k = 0; k < run.structure.size(); ++k)
-        n_nonlinear += !run.structure[k].is_linear();
-      run.structure.communicator().sum(&n_nonlinear, 1);
-      const double solutions = n_nonlinear > 0.                          ? work_of_newton
-                               : !run.constraints.turning_rows().empty() ? work_of_turning
-                                                                         : 1.;
+      for (std::size_t k = 0; k < run.motion.bodies().size(); ++k)
+        n_nonlinear += !run.motion.bodies()[k].is_linear();
+      run.motion.bodies().communicator().sum(&n_nonlinear, 1);
+      const double solutions = n_nonlinear > 0.                             ? work_of_newton
+                               : !run.motion.links().turning_rows().empty() ? work_of_turning
+                                                                            : 1.;
       return static_cast<double>(run.n_steps) *
-             (work_of_step + n_dofs + static_cast<double>(run.constraints.size())) * solutions;
+             (work_of_step + n_dofs + static_cast<double>(run.motion.links().size())) * solutions;
     }
 
     bool has_longer_steps(const RunInSteps &run)
     {
-      return !run.control.adaptive() && run.n_steps >= least_steps;
+      return !run.motion.settings().steps.adaptive() && run.n_steps >= least_steps;
     }
 
     std::string percent(const double part)
@@ -90,10 +90,10 @@ namespace taut
   } // namespace
 
   StepAccuracy::StepAccuracy(RunInSteps from)
-      : run(std::move(from)), groups(run.structure, run.constraints),
-        courses(run.constraints.courses()), work(work_of(run)), n_samples(samples_of(run)),
-        interval(interval_of(run)),
-        own(run.structure, run.constraints, groups, run.reference, run.start, interval, n_samples)
+      : run(std::move(from)), groups(run.motion.bodies(), run.motion.links()), work(work_of(run)),
+        n_samples(samples_of(run)), interval(interval_of(run)),
+        own(run.motion.bodies(), run.motion.links(), groups, run.motion.reference(),
+            run.motion.start().state, interval, n_samples)
   {
   }
 
@@ -116,19 +116,18 @@ namespace taut
   {
     const long n = std::max(1L, std::lround(static_cast<double>(run.n_steps) / about));
     const double factor = static_cast<double>(run.n_steps) / static_cast<double>(n),
-                 step = run.step * factor;
-    StepParameters control = run.control;
+                 step = run.motion.settings().step * factor;
+    StepParameters control = run.motion.settings().steps;
     control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
     control.largest *= factor;
-    std::vector<LongestStep> longest_steps = run.longest_steps;
+    std::vector<LongestStep> longest_steps = run.motion.longest_steps_in_contacts();
     for (LongestStep &longest : longest_steps)
       longest.contact_time *= factor;
     try
     {
-      run.constraints.set_courses(courses);
       Motion motion(run.motion, step, control, longest_steps, n);
-      MotionRecord other(run.structure, run.constraints, groups, run.reference, run.start, interval,
-                         n_samples);
+      MotionRecord other(run.motion.bodies(), run.motion.links(), groups, run.motion.reference(),
+                         run.motion.start().state, interval, n_samples);
       while (!motion.is_finished())
       {
         motion.advance();
@@ -144,7 +143,7 @@ namespace taut
     catch (const UserError &e)
     {
       // An error without an entry may be on this rank alone, and ends the run.
-      if (run.structure.communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
+      if (run.motion.bodies().communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
         throw;
       reason = to_text("a run with a step of ", step, " s ended: ", e.what());
       return std::nullopt;
@@ -154,9 +153,9 @@ namespace taut
   void StepAccuracy::measure(const std::function<bool()> &stop)
   {
     bool has_state = false;
-    for (std::size_t k = 0; k < run.structure.size(); ++k)
-      has_state = has_state || keeps_state(run.structure[k]);
-    if (run.structure.communicator().any(has_state))
+    for (std::size_t k = 0; k < run.motion.bodies().size(); ++k)
+      has_state = has_state || keeps_state(run.motion.bodies()[k]);
+    if (run.motion.bodies().communicator().any(has_state))
     {
       reason = "a body keeps a state of its own";
       return;
@@ -211,7 +210,7 @@ namespace taut
     if (!too_long)
       return {};
     const double part = std::isfinite(found->over_bounds()) ? shortened(found->over_bounds()) : .1;
-    const std::string body = "'" + run.structure.all_bodies()[found->body].name + "'";
+    const std::string body = "'" + run.motion.bodies().all_bodies()[found->body].name + "'";
     std::ostringstream out;
     out.precision(2);
     if (run.other_cause.empty())
@@ -220,18 +219,19 @@ namespace taut
       out << "the place of " << body << " is off by " << percent(found->place)
           << " of the largest displacement at t = " << found->time << " s";
     else if (found->is_impulse())
-      out << "the impulse of '" << run.constraints[found->row].name << "' is off by "
+      out << "the impulse of '" << run.motion.links()[found->row].name << "' is off by "
           << percent(found->impulse) << " of the largest";
     else
       out << "the energy of what is connected with " << body << " is off by "
           << percent(found->energy) << " of the largest";
     if (!run.other_cause.empty())
       out << ": " << run.other_cause;
-    else if (run.control.adaptive())
+    else if (run.motion.settings().steps.adaptive())
       out << ". Take a Tolerance of about "
-          << run.control.tolerance * std::pow(rounding_of_lengths * part, power_of_tolerance);
+          << run.motion.settings().steps.tolerance *
+                 std::pow(rounding_of_lengths * part, power_of_tolerance);
     else
-      out << ". Take a step of about " << run.step * part << " s";
+      out << ". Take a step of about " << run.motion.settings().step * part << " s";
     return {{"step", out.str(), found->over_bounds(), 1., "1", found->time}};
   }
 

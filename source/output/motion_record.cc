@@ -5,7 +5,7 @@
 #include <taut/base/dot.h>
 #include <taut/substructure/constrained_body.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/motion_record.h>
+#include <taut/output/motion_record.h>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
