@@ -21,11 +21,11 @@ namespace taut
   InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
                                                    const FactoredStructure &solvers,
                                                    const BodyConstraints &body_constraints)
-      : is_diagonal(name == "diagonal"), T(name == "Dirichlet", solvers, body_constraints)
+      : is_diagonal(name == "diagonal"), T(solvers, body_constraints)
   {
-    if (!is_diagonal && name != "lumped" && name != "Dirichlet")
+    if (!is_diagonal && name != "Dirichlet")
       throw UserError("unknown preconditioner '" + name +
-                      "'; known are: diagonal, lumped, Dirichlet. Correct the name");
+                      "'; known are: diagonal, Dirichlet. Correct the name");
   }
 
   void InterfacePreconditioner::setup(const std::vector<char> &active,

@@ -13,10 +13,9 @@ namespace taut
    * A cheap approximation of F^-1 on an active set, by name. With the DoFs b in active constraints,
    *
    *     "diagonal"   1 / F_ii
-   *     "lumped"     A_k on b in place of the body
    *     "Dirichlet"  the Schur complement of A_k on b: the stiffness for b if other DoFs follow
    *
-   * The last two assemble a sparse matrix T over all DoFs b, with the elastic constraints c as
+   * The last one assembles a sparse matrix T over all DoFs b, with the elastic constraints c as
    * springs in it: T = sum_k T_k + B_c S_c^-1 B_c^T. In
    *
    *     [F_cc F_cr]         F = B^T (sum_k T_k)^-1 B + S

@@ -32,10 +32,9 @@ namespace taut
     }
   } // namespace
 
-  InterfaceStiffness::InterfaceStiffness(const bool condenses, const FactoredStructure &solvers,
+  InterfaceStiffness::InterfaceStiffness(const FactoredStructure &solvers,
                                          const BodyConstraints &body_constraints)
-      : condenses(condenses), solvers(solvers), body_constraints(body_constraints),
-        blocks(body_constraints.size())
+      : solvers(solvers), body_constraints(body_constraints), blocks(body_constraints.size())
   {
   }
 
@@ -118,7 +117,7 @@ namespace taut
   void InterfaceStiffness::compute_block(const std::size_t k, const std::vector<char> &active)
   {
     Block block;
-    if (condenses && solvers.structure()[k].stiffness().block_size() == 0)
+    if (solvers.structure()[k].stiffness().block_size() == 0)
     {
       block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
       if (block.dofs.size() > most_formed)
@@ -138,7 +137,7 @@ namespace taut
     for (std::size_t e = 0; e < block.entries.size(); ++e)
       if (block.entries.row[e] == block.entries.column[e])
         diagonal[block.entries.row[e]] += block.entries.value[e];
-    if (condenses && !block.dofs.empty())
+    if (!block.dofs.empty())
       condense(k, block);
     block.entries.compress();
     for (std::size_t e = 0; e < block.entries.size(); ++e)

@@ -14,7 +14,7 @@ namespace taut
   /**
    * The stiffness T = sum_k T_k of all bodies at the DoFs b of active constraints, and the forms B
    * of the constraints on these DoFs. Use it where a preconditioner needs stiffnesses at the
-   * constraints in place of the bodies. T_k is A_k on b, or its Schur complement there.
+   * constraints in place of the bodies. T_k is the Schur complement of A_k on b.
    *
    * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
    * the rest of the body. It takes the DoFs of all constraints, active or not, so that the factor
@@ -23,9 +23,8 @@ namespace taut
   class InterfaceStiffness
   {
   public:
-    /// The references are kept. @p condenses: T_k are Schur complements.
-    InterfaceStiffness(bool condenses, const FactoredStructure &solvers,
-                       const BodyConstraints &body_constraints);
+    /// The references are kept.
+    InterfaceStiffness(const FactoredStructure &solvers, const BodyConstraints &body_constraints);
 
     /// All A_k are new.
     void reset() { blocks = std::vector<Block>(blocks.size()); }
@@ -66,7 +65,6 @@ namespace taut
     void set_entries(std::size_t k, Block &block) const;
     void condense(std::size_t k, Block &block) const;
 
-    const bool condenses;
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;

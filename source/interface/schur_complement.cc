@@ -9,9 +9,6 @@ namespace taut
 {
   namespace
   {
-    /// Rows up to which a dense F is as fast as a sparse one.
-    constexpr std::size_t most_dense_rows = 150;
-
     /// Numbers beside F for each DoF up to which F is assembled, some three times those of factors.
     constexpr double most_stored_numbers = 64.;
 
@@ -48,18 +45,13 @@ namespace taut
       return totals;
     }
 
-    /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F and
-    /// its factor fit in the memory of an assembled F.
-    bool suits_condensed(const FactoredStructure &solvers, const Constraints &constraints)
+    /// True if columns are long, and F and its factor fit in the memory of an assembled F.
+    bool suits_half_columns(const Structure &structure, const Constraints &constraints)
     {
-      const Structure &structure = solvers.structure();
-      double n_blocked = 0.;
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        n_blocked += structure[k].stiffness().block_size() > 0;
-      std::vector<double> totals = {n_blocked, static_cast<double>(structure.n_dofs())};
-      structure.communicator().sum(totals);
+      double n_dofs = structure.n_dofs();
+      structure.communicator().sum(&n_dofs, 1);
       const double n = constraints.size();
-      return totals[0] == 0. && 2. * n * n <= most_stored_numbers * totals[1];
+      return have_long_columns(structure) && 2. * n * n <= most_stored_numbers * n_dofs;
     }
 
     /// Whether a body of any rank has conditions inside, such as a rigid body, which the
@@ -112,10 +104,9 @@ namespace taut
     private:
       std::string choice() const
       {
-        if (constraints.size() <= most_dense_rows)
+        if (constraints.size() <= most_dense_rows ||
+            suits_half_columns(solvers.structure(), constraints))
           return "assembled dense";
-        if (suits_condensed(solvers, constraints))
-          return "condensed";
         if (!solvers.is_generalised_inverse() && solvers.has_rigid_body_modes())
           return "assembled sparse";
         const std::vector<double> stored = stored_numbers(solvers, constraints);
@@ -151,15 +142,13 @@ namespace taut
       return std::make_unique<AutomaticSchurComplement>(parameters, solvers, constraints);
     if (parameters.form == "assembled dense")
       return std::make_unique<DenseSchurComplement>(solvers, constraints);
-    if (parameters.form == "condensed")
-      return std::make_unique<CondensedSchurComplement>(solvers, constraints);
     if (parameters.form == "assembled sparse")
       return std::make_unique<SparseSchurComplement>(solvers, constraints);
     if (parameters.form == "matrix-free")
       return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, constraints);
     throw UserError(
         "unknown form of the interface operator '" + parameters.form +
-        "'; known are: automatic, assembled dense, condensed, assembled sparse, matrix-free. "
-        "Correct the name");
+        "'; known are: automatic, assembled dense, assembled sparse, matrix-free. Correct the "
+        "name");
   }
 } // namespace taut

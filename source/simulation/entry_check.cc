@@ -152,6 +152,16 @@ namespace taut
       return "";
     }
 
+    /// What to take in place of a value that a version dropped, see doc/changelog.md; empty: none.
+    std::string replacement_of(const ParameterFile::Entry &entry)
+    {
+      if (entry.path.back() == "Interface operator" && entry.value == "condensed")
+        return "; take 'assembled dense', which stores no columns of solids";
+      if (entry.path.back() == "Preconditioner" && entry.value == "lumped")
+        return "; take 'Dirichlet', which needs fewer iterations";
+      return "";
+    }
+
     /// Other places in the tree with an entry or section of this name, or a section that begins
     /// with it; at most two.
     void find_elsewhere(const nlohmann::json &node, const std::string &name, const bool section,
@@ -267,7 +277,7 @@ namespace taut
             entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
         throw UserError(entry.place + ": " + entry.name() + " = '" + shortened(entry.value) +
                         "' is not allowed; expected " + expectation(*pattern) +
-                        hint(entry.value, expectation(*pattern)) +
+                        hint(entry.value, expectation(*pattern)) + replacement_of(entry) +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));
       }
       check_sections_of_names(file, entry, node[name]);

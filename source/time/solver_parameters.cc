@@ -17,17 +17,16 @@ namespace taut
     prm.add_parameter(
         "Interface operator", interface.form,
         "Contact Schur complement F. 'automatic': by number of constraints and step; the log "
-        "names it. 'assembled dense': fastest up to some hundred constraints. 'condensed': "
-        "dense without the responses of the bodies, for up to some thousand constraints of "
-        "solids. 'assembled sparse': for many constraints that act on each other only near by: "
+        "names it. 'assembled dense': fastest up to some hundred constraints, of solids up to some "
+        "thousand. 'assembled sparse': for many constraints that act on each other only near by: "
         "small steps, many bodies. 'matrix-free': applied through the factors of the bodies, "
         "solved by conjugate gradients: least memory.",
-        Patterns::Selection("automatic|assembled dense|condensed|assembled sparse|matrix-free"));
+        Patterns::Selection("automatic|assembled dense|assembled sparse|matrix-free"));
     prm.add_parameter(
         "Preconditioner", interface.preconditioner,
-        "Of the matrix-free operator. 'diagonal': 1/F_ii. 'lumped': the matrices of the bodies at "
-        "the constraints. 'Dirichlet': their Schur complements there, fewest iterations.",
-        Patterns::Selection("diagonal|lumped|Dirichlet"));
+        "Of the matrix-free operator. 'diagonal': 1/F_ii. 'Dirichlet': the Schur complements of the "
+        "bodies at the constraints, fewest iterations.",
+        Patterns::Selection("diagonal|Dirichlet"));
     prm.add_parameter(
         "Coarse space", interface.coarse_space,
         "Of the matrix-free operator. 'rigid body modes': those of floating bodies are solved "

@@ -38,7 +38,6 @@ namespace
       for (const unsigned int elements : {4u, 8u, 16u})
         if (dim == 2 || n_parts(n) * elements * elements * elements <= 40000)
           run<dim>("statics", {n, elements}, 0., "Dirichlet");
-      run<dim>("statics", {n, 8}, 0., "lumped");
       run<dim>("METIS", {n, 8, 1., n_parts(n)}, 0., "Dirichlet");
       for (const double jump : {1e3, 1e6})
         run<dim>("jump", {n, 8, jump}, 0., "Dirichlet");

@@ -123,7 +123,7 @@ TEST(Operators, apply_and_aztecoo)
 
 TEST(Operators, setting_up_takes_as_many_exchanges_whatever_the_size)
 {
-  for (const char *form : {"assembled dense", "assembled sparse", "condensed", "matrix-free"})
+  for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
   {
     std::vector<long> exchanges;
     for (const std::size_t n : {8, 40})

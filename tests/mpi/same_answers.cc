@@ -270,7 +270,7 @@ TEST(Ranks, degrees_of_freedom_are_shared_evenly)
 // the ranks in their own ways. Expected: as above, one process with the dense form.
 TEST(Ranks, all_interface_operators_answer_the_same)
 {
-  for (const std::string form : {"assembled sparse", "condensed", "matrix-free"})
+  for (const std::string form : {"assembled sparse", "matrix-free"})
     expect_same("5 spans, " + form, 1e-1, line(5, 1e-1, 10, .75), {7, 64},
                 {"Solver/Interface operator=" + form});
 }

@@ -53,7 +53,7 @@ namespace
 
 TEST(CutsAtRest, a_beam_moved_by_its_supports_is_straight)
 {
-  for (const char *form : {"assembled dense", "condensed", "assembled sparse", "matrix-free"})
+  for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
     for (const char *parts : {"2", "3", "5"})
       for (const double length : {10., 50., 100.})
         for (const double tension : {1e3, 2e4})

@@ -145,7 +145,7 @@ TEST(SameAnswers, of_all_forms_of_the_interface_operator)
 {
   double worst = 0.;
   for (const Case &c : short_scenes)
-    for (const std::string form : {"assembled sparse", "condensed", "matrix-free"})
+    for (const std::string form : {"assembled sparse", "matrix-free"})
       worst = std::max(worst, compare(c, {"Solver.Interface operator=" + form}, form));
   figure("all forms of F, largest difference over the allowed one", worst);
 }

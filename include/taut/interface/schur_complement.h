@@ -15,11 +15,11 @@ namespace taut
   /// Names of the form of F and of the solver for its systems.
   struct InterfaceParameters
   {
-    /// "assembled dense", "condensed" (dense, without the columns A_k^-1 B_k), "assembled sparse",
-    /// "matrix-free", or "automatic" for the form that suits number of constraints and step.
+    /// "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the form that suits
+    /// number of constraints and step.
     std::string form = "automatic";
 
-    /// For the matrix-free form: "diagonal", "lumped", "Dirichlet".
+    /// For the matrix-free form: "diagonal" or "Dirichlet".
     std::string preconditioner = "Dirichlet";
 
     /// For the matrix-free form: "rigid body modes" of the floating bodies, or "none".
@@ -40,8 +40,7 @@ namespace taut
   /**
    * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the constraints [m/N, rad/(N
    * m)], the interface operator of FETI (C. Farhat, F.-X. Roux, Int. J. Numer. Meth. Engng 32
-   * (1991)). It is matrix-free, or assembled: dense or sparse with stored columns A_k^-1 B_k of the
-   * fixed constraints, or condensed, that is dense without columns.
+   * (1991)). It is matrix-free, or assembled: dense or sparse.
    */
   class SchurComplement
   {
