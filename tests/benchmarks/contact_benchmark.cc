@@ -9,13 +9,7 @@
 #include "solid/wavy_floor.h"
 #include "verification/run.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/model/surface_constraints.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <string>
 
 namespace
 {

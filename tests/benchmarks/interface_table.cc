@@ -9,11 +9,6 @@
 #include <taut/simulation/parameters.h>
 
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <string>
-#include <vector>
 
 using verification::InterfaceProblem;
 

@@ -7,12 +7,6 @@
 // ELEMENTS_IN_EACH_DIRECTION PARTS; 1 part is the direct one.
 #include "solid/box_in_parts.h"
 
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
-#include <string>
-
 namespace
 {
   using verification::seconds_since;

@@ -6,8 +6,6 @@
 #include "solid/box_in_parts.h"
 
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 
 namespace
 {

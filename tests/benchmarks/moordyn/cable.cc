@@ -4,12 +4,7 @@
 // each interval, multipliers at the start.
 #include "verification/run.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 
 namespace
 {

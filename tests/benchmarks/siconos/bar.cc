@@ -5,14 +5,6 @@
 // the motion of the contact.
 #include "verification/run.h"
 
-#include <taut/base/exceptions.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
-
 namespace
 {
   struct Figures
