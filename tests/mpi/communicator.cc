@@ -6,9 +6,7 @@
 #include <taut/base/communicator.h>
 #include <taut/base/rank_abort.h>
 
-#include <limits>
 #include <new>
-#include <stdexcept>
 
 namespace
 {

@@ -3,9 +3,6 @@
 // without cuts.
 #include "nodes.h"
 
-#include <array>
-#include <limits>
-
 using namespace verification;
 
 namespace

@@ -6,8 +6,6 @@
 
 #include <taut/complementarity/solver.h>
 
-#include <iostream>
-
 namespace
 {
   using namespace taut;

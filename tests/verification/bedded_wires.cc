@@ -8,7 +8,6 @@
 
 #include <taut/output/line_constants.h>
 
-#include <array>
 #include <complex>
 
 using namespace verification;

@@ -7,8 +7,6 @@
 
 #include <taut/time/integrator.h>
 
-#include <filesystem>
-
 using namespace verification;
 
 namespace
