@@ -79,8 +79,9 @@ namespace taut
   namespace
   {
     const Register<Observer, CostTable>
-        registration("cost", "cost.csv: wall time of each part of a step, Newton iterations and "
-                             "active-set iterations, means of the steps since the line before, as "
-                             "often as Interval says");
+        register_cost_table("cost",
+                            "cost.csv: wall time of each part of a step, Newton iterations and "
+                            "active-set iterations, means of the steps since the line before, as "
+                            "often as Interval says");
   }
 } // namespace taut

@@ -306,8 +306,9 @@ namespace taut
   namespace
   {
     const Register<Observer, Energy>
-        registration("energy", "energy.csv: kinetic and elastic energy, work of loads, supports "
-                               "and contacts, dissipation of dampers and of the time integration, "
-                               "and the error of their balance, as often as Interval says");
+        register_energy("energy",
+                        "energy.csv: kinetic and elastic energy, work of loads, supports "
+                        "and contacts, dissipation of dampers and of the time integration, "
+                        "and the error of their balance, as often as Interval says");
   }
 } // namespace taut

@@ -3,9 +3,9 @@
 
 #include <taut/base/archive.h>
 #include <taut/base/dot.h>
+#include <taut/output/motion_record.h>
 #include <taut/substructure/constrained_body.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/output/motion_record.h>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>

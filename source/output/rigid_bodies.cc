@@ -103,10 +103,10 @@ namespace taut
 
   namespace
   {
-    const Register<Observer, RigidBodies>
-        registration("rigid bodies",
-                     "rigid_bodies.csv: place of the centre of each rigid body, and its rotation "
-                     "from the undeformed position as a vector along its axis, as often as "
-                     "Interval says");
+    const Register<Observer, RigidBodies> register_rigid_bodies(
+        "rigid bodies",
+        "rigid_bodies.csv: place of the centre of each rigid body, and its rotation "
+        "from the undeformed position as a vector along its axis, as often as "
+        "Interval says");
   }
 } // namespace taut

@@ -266,7 +266,7 @@ namespace taut
 
   namespace
   {
-    const Register<Observer, SectionForces> registration(
+    const Register<Observer, SectionForces> register_section_forces(
         "section forces",
         "largest tension, bending moment and stress of wires and cables, with place and "
         "time, in the log, statistics.json and sweeps");

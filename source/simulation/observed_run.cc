@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/interface/schur_complement.h>
 #include <taut/simulation/observed_run.h>
 
 #include <algorithm>

@@ -12,10 +12,12 @@
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/shared_parts.h>
+#include <taut/output/accuracy_report.h>
 #include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>
 #include <taut/output/jump_watch.h>
+#include <taut/output/model_limits.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/output/slack_monitor.h>
@@ -52,6 +54,8 @@ namespace taut
   {
     check_ball_joints(model, bodies);
   }
+
+  Simulation::~Simulation() = default;
 
   void Simulation::run()
   {

@@ -30,11 +30,6 @@ namespace taut
     /// without damper.
     constexpr double no_rebound = .7, steps_of_a_contact = 12.;
 
-    /// Steps of a contact with a damper for a rebound within a percent: a number in the time of a
-    /// contact without damper, and more in proportion to the part of the critical damping. A strong
-    /// damper acts faster than the spring.
-    constexpr double steps_of_a_damped_contact = 16., more_by_damping = 32.;
-
     /// Part of the step that is so short that F is that of the mass alone.
     constexpr double short_step = 1e-3;
 
@@ -346,12 +341,5 @@ namespace taut
       if (of[i].may_conserve && of[i].share > small_share && of[i].damping_ratio > 0.)
         result[i] = {of[i].contact_time, of[i].damping_ratio, constraints[i].spring.law.get()};
     return result;
-  }
-
-  /// A softer spring has longer contacts, and its damper is a larger part of the critical one.
-  double LongestStep::at_stiffness(const double part) const
-  {
-    return contact_time /
-           (steps_of_a_damped_contact * std::sqrt(part) + more_by_damping * damping_ratio);
   }
 } // namespace taut

@@ -3,6 +3,8 @@
 #include <taut/base/dot.h>
 #include <taut/time/energy_account.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/nonlinear_step.h>
+#include <taut/time/step.h>
 
 #include <algorithm>
 #include <cmath>

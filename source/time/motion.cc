@@ -2,13 +2,64 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
+#include <taut/time/choose_scheme.h>
 #include <taut/time/contact_resolution.h>
+#include <taut/time/load_sampling.h>
+#include <taut/time/local_error.h>
 #include <taut/time/motion.h>
+#include <taut/time/nonlinear_step.h>
+#include <taut/time/step.h>
+#include <taut/time/step_control.h>
+#include <taut/time/velocity_projection.h>
 
 #include <utility>
 
 namespace taut
 {
+  namespace
+  {
+    /// What take_back() needs beside the vectors of the bodies, which the history has.
+    struct Before
+    {
+      double time = 0., last_step = 0., step_before = 0.;
+      long n_in_segment = 0, n_steps = 0;
+      RowStates rows;
+      Certificate certificate;
+      StepReport report;
+      std::vector<double> kinetic_energies;
+      PerKind motion;
+      ContactStep::Sizes sizes;
+      std::vector<std::vector<double>> courses;
+      std::vector<double> rates;
+    };
+  } // namespace
+
+  /// The parts of a prepared motion.
+  struct Motion::Parts
+  {
+    Parts(const Structure &structure, Constraints &constraints, const StepperOptions &options,
+          const InitialState &initial, const std::vector<LongestStep> &longest_steps, long n_steps);
+
+    State state;
+    Certificate certificate;
+    const std::vector<char> quasi_static; ///< rows on DoFs without mass and damping
+    StepMethod method;
+    bool is_prepared = false; ///< the other parts, for the method
+    NonlinearStep nonlinear;
+    Step step;
+    LoadSampling loads;
+    LocalError errors;
+    std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
+    StepControl control;
+    Before before;
+
+    // Times of equal steps are multiples counted from their first start, and do not drift.
+    double length;           ///< of the steps to come [s]
+    double segment_start;    ///< start of the first step of this length [s]
+    double step_before = 0.; ///< length of the step before the last one; 0: none [s]
+    long n_in_segment = 0, n_steps = 0;
+  };
+
   Motion::Parts::Parts(const Structure &structure, Constraints &constraints,
                        const StepperOptions &options, const InitialState &initial,
                        const std::vector<LongestStep> &longest_steps, const long n_steps)
@@ -65,9 +116,76 @@ namespace taut
   Motion::Motion(Motion &other, const double step, const StepParameters &steps,
                  std::vector<LongestStep> longest_steps, const long n_steps)
       : Motion(other.structure, with_courses(other.constraints, other.first_courses),
-               in_other_steps(other.options, step, steps),
-               other.initial, other.integrator, n_steps, std::move(longest_steps))
+               in_other_steps(other.options, step, steps), other.initial, other.integrator, n_steps,
+               std::move(longest_steps))
   {
+  }
+
+  Motion::~Motion() = default;
+
+  bool Motion::is_finished() const
+  {
+    return !parts || parts->control.is_finished();
+  }
+
+  bool Motion::is_at_step() const
+  {
+    return parts->control.is_at_step();
+  }
+
+  long Motion::n_repeated() const
+  {
+    return parts ? parts->control.n_repeated() : 0;
+  }
+
+  const State &Motion::state() const
+  {
+    return parts ? parts->state : initial.state;
+  }
+
+  const Certificate &Motion::certificate() const
+  {
+    return has_moved() ? parts->certificate : initial.certificate;
+  }
+
+  const StepReport &Motion::report() const
+  {
+    return parts ? parts->step.report() : no_report;
+  }
+
+  bool Motion::has_moved() const
+  {
+    return parts && parts->n_steps > 0;
+  }
+
+  long Motion::n_newton_iterations() const
+  {
+    return parts->nonlinear.n_iterations();
+  }
+
+  bool Motion::is_linear() const
+  {
+    return parts->nonlinear.is_linear();
+  }
+
+  InterfaceStatistics Motion::interface_statistics() const
+  {
+    return parts->step.interface_statistics();
+  }
+
+  const StepCosts &Motion::costs() const
+  {
+    return parts ? parts->step.costs() : no_costs;
+  }
+
+  StepCosts &Motion::costs()
+  {
+    return parts ? parts->step.costs() : no_costs;
+  }
+
+  const RowStates &Motion::rows_before() const
+  {
+    return parts->before.rows;
   }
 
   /// Made on demand only: its factors may be lost in rounding where those of the run are not.

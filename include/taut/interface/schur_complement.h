@@ -4,6 +4,7 @@
 
 #include <taut/complementarity/operator.h>
 #include <taut/interface/constraints.h>
+#include <taut/interface/interface_parameters.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <memory>
@@ -12,20 +13,6 @@
 
 namespace taut
 {
-  /// Names of the form of F and of the solver for its systems.
-  struct InterfaceParameters
-  {
-    /// "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the form that suits
-    /// number of constraints and step.
-    std::string form = "automatic";
-
-    /// For the matrix-free form: "diagonal" or "Dirichlet".
-    std::string preconditioner = "Dirichlet";
-
-    /// For the matrix-free form: "rigid body modes" of the floating bodies, or "none".
-    std::string coarse_space = "rigid body modes";
-  };
-
   /// Cost of the iterative solution of systems with F so far; all 0 if F is assembled.
   struct InterfaceStatistics
   {

@@ -15,7 +15,7 @@
 #include <taut/simulation/sweep_parameters.h>
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
-#include <taut/time/step_control.h>
+#include <taut/time/step_parameters.h>
 
 #include <iosfwd>
 #include <map>

@@ -2,8 +2,6 @@
 #ifndef taut_simulation_h
 #define taut_simulation_h
 
-#include <taut/output/accuracy_report.h>
-#include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/statistics.h>
 #include <taut/simulation/observed_run.h>
@@ -18,8 +16,11 @@
 
 namespace taut
 {
+  class AccuracyReport;
+  class ModelLimits;
   struct ScenePlaces;
   struct SharedParts;
+  class StepAccuracy;
 
   /// Throws an EntryError on Output/Folder if a run cannot write its results there: it is a file,
   /// has results of another run, or another run writes there now. Changes nothing. Use it before
@@ -40,6 +41,7 @@ namespace taut
      */
     Simulation(const Parameters &parameters, std::ostream &log,
                const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
+    ~Simulation();
 
     /// Adds an observer of the start and each step, called after those that write the results; kept
     /// by reference.

@@ -7,20 +7,9 @@
 #include <taut/time/solver_parameters.h>
 
 #include <functional>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace taut
 {
-  /// Name of a time integration scheme, values of its entries by path, and why it was chosen.
-  struct SchemeChoice
-  {
-    std::string name;
-    std::map<std::string, std::string> entries;
-    std::string reason;
-  };
-
   /**
    * The scheme that suits the constraints of a system. Generalised-alpha with spectral radius 0.8
    * suits a linear system if a step resolves all unilateral constraints. A system is not linear

@@ -4,41 +4,14 @@
 
 #include <taut/complementarity/operator.h>
 #include <taut/interface/constraints.h>
+#include <taut/time/longest_step.h>
 #include <taut/time/solver_parameters.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace taut
 {
-  /// The longest step that resolves a contact of a constraint with a damper: a part of the time of
-  /// the contact, which is that of the stiffness that the spring has where it is compressed to.
-  struct LongestStep
-  {
-    /// Of the constraint alone on its bodies, without its damper and with the largest stiffness of
-    /// its spring [s]; infinite: steps of any length will do.
-    double contact_time = std::numeric_limits<double>::infinity();
-    double damping_ratio = 0.;     ///< damping over the critical one, with this stiffness [1]
-    const ForceLaw *law = nullptr; ///< of the spring; null: it is linear
-
-    /// At the largest stiffness of the spring [s].
-    double shortest() const { return at_stiffness(1.); }
-
-    /// For a step between two compressions of the spring, negative where it is open [s].
-    double between(const double u, const double v) const
-    {
-      const auto stiffness = [this](const double w) { return law->stiffness(std::max(0., w)); };
-      return law ? at_stiffness(std::max(stiffness(u), stiffness(v)) / law->largest_stiffness())
-                 : shortest();
-    }
-
-  private:
-    /// With a part of the largest stiffness.
-    double at_stiffness(double part) const;
-  };
-
   /**
    * How well a step resolves the unilateral constraints of a system; it decides the choice of the
    * scheme. Use it before the first step.

@@ -4,9 +4,7 @@
 
 #include <taut/base/archive_forward.h>
 #include <taut/interface/connected_bodies.h>
-#include <taut/time/nonlinear_step.h>
 #include <taut/time/state.h>
-#include <taut/time/step.h>
 #include <taut/time/step_report.h>
 
 #include <cstddef>
@@ -15,6 +13,9 @@
 
 namespace taut
 {
+  class NonlinearStep;
+  class Step;
+
   /// What an EnergyAccount says about a run: the worst contact, and large motions.
   struct EnergySummary
   {

@@ -171,6 +171,14 @@ namespace taut
     virtual std::string description() const = 0;
   };
 
+  /// Name of a time integration scheme, values of its entries by path, and why it was chosen.
+  struct SchemeChoice
+  {
+    std::string name;
+    std::map<std::string, std::string> entries;
+    std::string reason;
+  };
+
   /// The registered scheme of this name, with values of its entries by path, for example
   /// "Moreau-Jean/Theta"; unknown entries are ignored. Throws UserError for an unknown name, and
   /// the exceptions of deal.II's ParameterHandler for an unsuitable value.

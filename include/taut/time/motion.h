@@ -4,16 +4,14 @@
 
 #include <taut/base/archive_forward.h>
 #include <taut/base/start.h>
-#include <taut/time/choose_scheme.h>
 #include <taut/time/contact_measures.h>
 #include <taut/time/energy_account.h>
 #include <taut/time/initial_state.h>
-#include <taut/time/load_sampling.h>
-#include <taut/time/local_error.h>
-#include <taut/time/nonlinear_step.h>
-#include <taut/time/step.h>
-#include <taut/time/step_control.h>
-#include <taut/time/velocity_projection.h>
+#include <taut/time/integrator.h>
+#include <taut/time/longest_step.h>
+#include <taut/time/step_costs.h>
+#include <taut/time/step_parameters.h>
+#include <taut/time/step_report.h>
 
 #include <functional>
 #include <limits>
@@ -24,6 +22,9 @@
 
 namespace taut
 {
+  class ContactResolution;
+  struct InterfaceStatistics;
+
   /// Options of a motion; the defaults suit most systems.
   struct StepperOptions
   {
@@ -70,6 +71,7 @@ namespace taut
     /// @p structure and @p constraints are kept by reference. Throws the errors of
     /// find_initial_state().
     Motion(Structure &structure, Constraints &constraints, const StepperOptions &options);
+    ~Motion();
 
     /// Throws UserError for a restitution that no constraint can have.
     void choose_scheme();
@@ -95,25 +97,22 @@ namespace taut
     void advance();
 
     /// True also for an unprepared motion, which stays at its start.
-    bool is_finished() const { return !parts || parts->control.is_finished(); }
+    bool is_finished() const;
 
     /// True at multiples of StepperOptions::step.
-    bool is_at_step() const { return parts->control.is_at_step(); }
-    long n_repeated() const { return parts ? parts->control.n_repeated() : 0; }
+    bool is_at_step() const;
+    long n_repeated() const;
 
     const InitialState &start() const { return initial; }
     const Reference &reference() const { return initial.reference; }
 
     /// State after the last step, or at the start, and its residuals.
-    const State &state() const { return parts ? parts->state : initial.state; }
-    const Certificate &certificate() const
-    {
-      return has_moved() ? parts->certificate : initial.certificate;
-    }
+    const State &state() const;
+    const Certificate &certificate() const;
 
     /// What the last step tells; empty before the first step.
-    const StepReport &report() const { return parts ? parts->step.report() : no_report; }
-    bool has_moved() const { return parts && parts->n_steps > 0; }
+    const StepReport &report() const;
+    bool has_moved() const;
 
     /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return contact_measures; }
@@ -133,20 +132,20 @@ namespace taut
     const std::vector<LongestStep> &longest_steps_in_contacts() const { return longest_steps; }
 
     /// Newton iterations so far; 0 if all bodies are linear and no constraint turns.
-    long n_newton_iterations() const { return parts->nonlinear.n_iterations(); }
-    bool is_linear() const { return parts->nonlinear.is_linear(); }
+    long n_newton_iterations() const;
+    bool is_linear() const;
 
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const;
-    InterfaceStatistics interface_statistics() const { return parts->step.interface_statistics(); }
+    InterfaceStatistics interface_statistics() const;
 
     /// Rigid joints that repeated each other in the last step, see RepeatedRows; iterative solves
     /// do not find them.
     std::vector<std::size_t> repeated_joints() const;
 
     /// Where the time of the steps goes; those of a prepared motion differ from those before.
-    StepCosts &costs() { return parts ? parts->step.costs() : no_costs; }
-    const StepCosts &costs() const { return parts ? parts->step.costs() : no_costs; }
+    StepCosts &costs();
+    const StepCosts &costs() const;
 
     /// Stores all data of later steps but the vectors of the bodies, equal on all ranks. Then, like
     /// load(), resets factors, F and search, whose rounding depends on earlier steps: a run that
@@ -168,7 +167,7 @@ namespace taut
     void take_back();
 
     /// The rows before the last step.
-    const RowStates &rows_before() const { return parts->before.rows; }
+    const RowStates &rows_before() const;
 
     /// Local error of the last step, see LocalError.
     double local_error();
@@ -178,47 +177,8 @@ namespace taut
     bool resolves_loads(double length, double reference_step, double tolerance);
 
   private:
-    /// What take_back() needs beside the vectors of the bodies, which the history has.
-    struct Before
-    {
-      double time = 0., last_step = 0., step_before = 0.;
-      long n_in_segment = 0, n_steps = 0;
-      RowStates rows;
-      Certificate certificate;
-      StepReport report;
-      std::vector<double> kinetic_energies;
-      PerKind motion;
-      ContactStep::Sizes sizes;
-      std::vector<std::vector<double>> courses;
-      std::vector<double> rates;
-    };
-
     /// The parts of a prepared motion.
-    struct Parts
-    {
-      Parts(const Structure &structure, Constraints &constraints, const StepperOptions &options,
-            const InitialState &initial, const std::vector<LongestStep> &longest_steps,
-            long n_steps);
-
-      State state;
-      Certificate certificate;
-      const std::vector<char> quasi_static; ///< rows on DoFs without mass and damping
-      StepMethod method;
-      bool is_prepared = false; ///< the other parts, for the method
-      NonlinearStep nonlinear;
-      Step step;
-      LoadSampling loads;
-      LocalError errors;
-      std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
-      StepControl control;
-      Before before;
-
-      // Times of equal steps are multiples counted from their first start, and do not drift.
-      double length;           ///< of the steps to come [s]
-      double segment_start;    ///< start of the first step of this length [s]
-      double step_before = 0.; ///< length of the step before the last one; 0: none [s]
-      long n_in_segment = 0, n_steps = 0;
-    };
+    struct Parts;
 
     const ContactResolution &resolution();
     void begin(long n_steps);
@@ -249,8 +209,8 @@ namespace taut
     std::vector<LongestStep> longest_steps;             ///< of constraints with dampers
     std::unique_ptr<Parts> parts;
     std::vector<std::vector<double>> first_courses; ///< of sliding rows at the start
-    StepReport no_report; ///< before the first step
-    StepCosts no_costs;   ///< of a motion that is not prepared
+    const StepReport no_report;                     ///< before the first step
+    StepCosts no_costs;                             ///< of a motion that is not prepared
   };
 } // namespace taut
 

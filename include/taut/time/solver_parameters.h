@@ -2,7 +2,7 @@
 #ifndef taut_solver_parameters_h
 #define taut_solver_parameters_h
 
-#include <taut/interface/schur_complement.h>
+#include <taut/interface/interface_parameters.h>
 
 #include <string>
 
