@@ -16,8 +16,12 @@
 
 namespace taut
 {
-  namespace
+  /// The parts of a prepared motion.
+  struct Motion::Parts
   {
+    Parts(const Structure &structure, Constraints &constraints, const StepperOptions &options,
+          const InitialState &initial, const std::vector<LongestStep> &longest_steps, long n_steps);
+
     /// What take_back() needs beside the vectors of the bodies, which the history has.
     struct Before
     {
@@ -32,13 +36,6 @@ namespace taut
       std::vector<std::vector<double>> courses;
       std::vector<double> rates;
     };
-  } // namespace
-
-  /// The parts of a prepared motion.
-  struct Motion::Parts
-  {
-    Parts(const Structure &structure, Constraints &constraints, const StepperOptions &options,
-          const InitialState &initial, const std::vector<LongestStep> &longest_steps, long n_steps);
 
     State state;
     Certificate certificate;
