@@ -8,6 +8,9 @@
 #include <taut/base/dot.h>
 #include <taut/cable/find_length.h>
 
+#include <cstdio>
+#include <tuple>
+
 namespace
 {
   using namespace verification;

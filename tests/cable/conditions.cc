@@ -4,6 +4,8 @@
 #include "cable/one_cable.h"
 #include "verification/scene_tests.h"
 
+#include <cstdio>
+
 namespace
 {
   using namespace verification;

@@ -5,6 +5,8 @@
 
 #include <taut/model/surface_constraints.h>
 
+#include <tuple>
+
 namespace
 {
   using namespace verification;

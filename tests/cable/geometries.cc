@@ -13,6 +13,7 @@ namespace
   using namespace verification;
   using namespace taut;
 
+  const double pi = std::acos(-1.);
 
   std::vector<double> frequencies(const Substructure &body, const unsigned int n)
   {

@@ -6,6 +6,10 @@
 #include <taut/output/scene_report.h>
 #include <taut/output/scene_sketch.h>
 
+#include <cstdint>
+#include <cstring>
+#include <tuple>
+
 namespace
 {
   using namespace verification;

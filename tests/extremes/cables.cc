@@ -11,6 +11,8 @@
 #include <taut/base/dot.h>
 #include <taut/cable/cable.h>
 
+#include <cstdio>
+
 using namespace extremes;
 
 namespace
@@ -20,6 +22,7 @@ namespace
   constexpr double largest_part_of_errors = .05;
   /// What Newton's method leaves of energies and momenta in a step, of the largest.
   constexpr double of_energy = 1e-6;
+  const double pi = std::acos(-1.);
   constexpr double bar = -1.; ///< instead of EI
 
   unsigned int n_scenes = 0, n_errors = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "extended_complementarity.h"
 
+#include <stdexcept>
+
 namespace extremes
 {
   namespace

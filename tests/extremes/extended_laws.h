@@ -4,6 +4,8 @@
 
 #include "extended_model.h"
 
+#include <optional>
+
 namespace extremes
 {
   /// The mean force of an elastic contact that keeps the energy W = stiffness max(0, u)^2 / 2 over

@@ -3,6 +3,8 @@
 
 #include "extended_complementarity.h"
 
+#include <stdexcept>
+
 namespace extremes
 {
   namespace

@@ -7,6 +7,9 @@
 #include "extended_scheme.h"
 #include "extended_system.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace extremes
 {
   namespace

@@ -4,6 +4,8 @@
 
 #include "extended_model.h"
 
+#include <string>
+
 namespace extremes
 {
   /// Of all bodies at the end of a step, and what schemes look back at.

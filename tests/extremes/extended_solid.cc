@@ -4,6 +4,9 @@
 #include "extended_run.h"
 #include "solid_case.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace extremes
 {
   namespace

@@ -3,6 +3,9 @@
 
 #include "extended_complementarity.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace extremes
 {
   namespace

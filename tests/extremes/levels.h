@@ -4,6 +4,10 @@
 
 #include "pairwise.h"
 
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
 namespace extremes
 {
   struct Dimension

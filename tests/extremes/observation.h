@@ -2,9 +2,11 @@
 #ifndef taut_extremes_observation_h
 #define taut_extremes_observation_h
 
-#include "common.h"
-
 #include <taut/scene/scene.h>
+
+#include <array>
+#include <string>
+#include <vector>
 
 namespace verification
 {

@@ -2,7 +2,8 @@
 #ifndef taut_extremes_pairwise_h
 #define taut_extremes_pairwise_h
 
-#include "common.h"
+#include <cstddef>
+#include <vector>
 
 namespace extremes
 {

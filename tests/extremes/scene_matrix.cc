@@ -4,6 +4,10 @@
 
 #include "levels.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace extremes
 {
   namespace

@@ -7,6 +7,8 @@
 #include "solid_case.h"
 #include "tally.h"
 
+#include <cmath>
+
 using namespace extremes;
 
 namespace

@@ -5,6 +5,13 @@
 
 #include "scene_numbers.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
 namespace extremes
 {
   class Tally

@@ -3,6 +3,8 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
+
 namespace hunt
 {
   namespace

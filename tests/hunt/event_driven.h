@@ -4,6 +4,9 @@
 
 #include "phase.h"
 
+#include <map>
+#include <stdexcept>
+
 namespace hunt
 {
   /// A motion that the reference cannot follow, with the reason.

@@ -7,6 +7,7 @@
 #include "verdict.h"
 
 #include <chrono>
+#include <cstdio>
 
 namespace
 {

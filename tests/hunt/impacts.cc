@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "event_driven.h"
 
+#include <algorithm>
+
 namespace hunt
 {
   namespace

@@ -9,6 +9,9 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <cmath>
+#include <memory>
+
 namespace hunt
 {
   using taut::dot;

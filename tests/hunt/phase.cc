@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "phase.h"
 
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
 namespace hunt
 {
   namespace

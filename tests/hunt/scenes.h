@@ -2,7 +2,10 @@
 #ifndef taut_hunt_scenes_h
 #define taut_hunt_scenes_h
 
-#include "common.h"
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace hunt
 {

@@ -10,6 +10,7 @@
 
 namespace mechanism
 {
+  const double pi = std::acos(-1.);
 
   struct OneBody : verification::OneBody<taut::RigidBody>
   {

@@ -12,6 +12,7 @@ namespace
   using namespace mechanism;
   using namespace taut;
 
+  constexpr double g = 9.81;
 
   RigidBodyData bar(const double angle)
   {

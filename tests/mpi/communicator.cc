@@ -6,7 +6,9 @@
 #include <taut/base/communicator.h>
 #include <taut/base/rank_abort.h>
 
+#include <limits>
 #include <new>
+#include <stdexcept>
 
 namespace
 {

@@ -3,6 +3,9 @@
 // without cuts.
 #include "nodes.h"
 
+#include <array>
+#include <limits>
+
 using namespace verification;
 
 namespace

@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 namespace
 {
   namespace fs = std::filesystem;

@@ -6,6 +6,7 @@
 #include <taut/complementarity/energy_ordered.h>
 #include <taut/complementarity/solver.h>
 
+#include <limits>
 #include <new>
 #include <type_traits>
 

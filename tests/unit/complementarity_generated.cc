@@ -6,6 +6,8 @@
 
 #include <taut/complementarity/solver.h>
 
+#include <iostream>
+
 namespace
 {
   using namespace taut;

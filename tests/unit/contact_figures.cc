@@ -2,16 +2,23 @@
 // Figures of contact forces and of droppers against records whose figures are known.
 #include "common.h"
 
+#include <taut/base/exceptions.h>
 #include <taut/output/contact_figures.h>
 #include <taut/output/contact_sums.h>
 #include <taut/output/link_force.h>
 #include <taut/output/power_spectrum.h>
 #include <taut/output/rainflow.h>
 
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
 using namespace taut;
 
 namespace
 {
+  const double pi = std::acos(-1.);
 
   /// 100 N, and waves of 8 N at 1 Hz and 4 N at 10 Hz, for 20 s at 1 ms and 10 m/s.
   ContactRecord waves(std::vector<double> &times)

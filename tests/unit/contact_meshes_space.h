@@ -5,6 +5,11 @@
 
 #include "contact_meshes.h"
 
+#include <array>
+#include <map>
+#include <tuple>
+#include <utility>
+
 namespace contact_meshes
 {
   struct Form

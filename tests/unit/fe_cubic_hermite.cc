@@ -22,6 +22,10 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools.h>
 
+#include <array>
+#include <iostream>
+#include <set>
+
 namespace
 {
   using namespace dealii;

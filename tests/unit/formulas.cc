@@ -6,6 +6,8 @@
 
 #include <deal.II/base/function_parser.h>
 
+#include <cstdint>
+#include <cstring>
 #include <thread>
 
 namespace

@@ -8,6 +8,7 @@
 
 #include <taut/output/line_constants.h>
 
+#include <array>
 #include <complex>
 
 using namespace verification;

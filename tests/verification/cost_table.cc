@@ -5,6 +5,7 @@
 
 #include <taut/time/step_costs.h>
 
+#include <numeric>
 #include <regex>
 #include <thread>
 

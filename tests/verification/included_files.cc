@@ -6,7 +6,12 @@
 
 #include <taut/simulation/parameter_file.h>
 
+#include <unistd.h>
+
+#include <filesystem>
+
 using namespace verification;
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -14,15 +19,22 @@ namespace
   {
   protected:
     IncludedFiles()
+        : folder(fs::temp_directory_path() / ("taut_included_" + std::to_string(getpid())))
     {
+      fs::create_directories(folder);
       write("inner.prm", "set A = inner\nset B = inner\nset C = inner\n");
       write("outer.prm", "include inner.prm\nset B = outer\n");
       write("other.prm", "set A = other\n");
     }
+    ~IncludedFiles() override
+    {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
 
     void write(const std::string &name, const std::string &text) const
     {
-      scratch.write(name, text);
+      std::ofstream(folder / name) << text;
     }
 
     /// "A = 1; B = 2", or the error.
@@ -70,8 +82,7 @@ namespace
       return 0.;
     }
 
-    const Folder scratch;
-    const fs::path folder = scratch.path;
+    const fs::path folder;
   };
 
   TEST_F(IncludedFiles, entries_are_set_again_after_the_include)

@@ -4,6 +4,8 @@
 #include "interface_problem.h"
 #include "scene_tests.h"
 
+#include <limits>
+
 using namespace verification;
 
 namespace

@@ -2,12 +2,17 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
-#include "common.h"
-
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
+
+#include <algorithm>
+#include <ctime>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace verification
 {

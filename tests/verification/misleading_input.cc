@@ -9,6 +9,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 using namespace verification;
 
 namespace

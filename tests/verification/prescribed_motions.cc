@@ -6,6 +6,8 @@
 // on a base, by Duhamel's integral.
 #include "scene_tests.h"
 
+#include <fstream>
+
 using namespace verification;
 
 namespace

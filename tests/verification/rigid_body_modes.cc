@@ -7,6 +7,8 @@
 
 #include <taut/time/integrator.h>
 
+#include <filesystem>
+
 using namespace verification;
 
 namespace

@@ -8,6 +8,8 @@
 
 #include <deal.II/lac/lapack_templates.h>
 
+#include <limits>
+
 using namespace verification;
 
 namespace

@@ -7,6 +7,8 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/time/matrix_norms.h>
 
+#include <limits>
+
 using namespace verification;
 
 namespace

@@ -7,6 +7,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <array>
+
 using namespace verification;
 
 namespace

@@ -6,22 +6,33 @@
 #include <taut/scene/network_entries.h>
 #include <taut/simulation/network_file.h>
 
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+
 using namespace verification;
 
 namespace
 {
-  /// The network of a scene, in a file.
+  namespace fs = std::filesystem;
+
+  /// A file that is removed again.
   struct Written
   {
     Written(const std::string &file, const Overrides &overrides)
+        : name((fs::temp_directory_path() / ("taut_written_" + std::to_string(getpid()) + ".prm"))
+                   .string())
     {
+      fs::remove(name);
       taut::Parameters parameters;
       parameters.read(file, overrides);
       taut::write_network(parameters, name, left_out);
     }
+    ~Written() { fs::remove(name); }
 
-    const Folder folder;
-    const std::string name = folder / "network.prm";
+    const std::string name;
     std::vector<std::string> left_out;
   };
 
