@@ -371,6 +371,24 @@ namespace taut
     return work->factors->is_super ? work->factors->xsize : work->factors->nzmax;
   }
 
+  std::vector<unsigned int> fill_reducing_order(const std::size_t n,
+                                                const SymmetricEntries &positions)
+  {
+    if (positions.size() == 0)
+    {
+      std::vector<unsigned int> as_given(n);
+      std::iota(as_given.begin(), as_given.end(), 0);
+      return as_given;
+    }
+    SparseCholesky::Workspace w(CholeskyMethod::simplicial);
+    w.matrix = w.compressed(n, positions);
+    w.factors = cholmod_analyze(w.matrix, &w.common);
+    if (!w.factors)
+      fail(w.common, "order a matrix");
+    const auto *order = static_cast<const int *>(w.factors->Perm);
+    return std::vector<unsigned int>(order, order + n);
+  }
+
   std::size_t SparseCholesky::memory_consumption() const
   {
     if (!work->factors)

@@ -23,26 +23,33 @@ namespace taut
       row.inside.clear();
       row.inside.reserve(n_interior);
     }
-    for (Factor *const used : {&factor, &shifted_factor})
-    {
-      used->response.assign(n_border, std::vector<double>(n_interior, 0.));
-      used->is_current.assign(n_border, 0);
-      used->schur.reinit(n_border);
-    }
-    set_interior({});
+    interior.set_pattern(n_interior, {});
+    set_pattern({});
+  }
+
+  void SparseOperator::set_pattern(const SymmetricEntries &entries)
+  {
+    SymmetricEntries all = entries;
+    for (std::size_t i = 0; i < n_interior; ++i)
+      for (std::size_t e = interior.begin[i]; e < interior.begin[i + 1]; ++e)
+        all.add(i, interior.column[e], 0.);
+    interior.set_pattern(n_interior, std::move(all));
+    if (interior.column.size() > 2 * entries.size())
+      interior.set_pattern(n_interior, entries);
+    pattern = nullptr;
+    factor.is_set_up = shifted_factor.is_set_up = false;
   }
 
   void SparseOperator::set_interior(const SymmetricEntries &entries)
   {
-    interior = entries;
-    for (std::size_t i = 0; i < n_interior; ++i)
-      interior.add(i, i, 0.);
-    interior.compress();
-    diagonal_entry.resize(n_interior);
-    for (std::size_t e = 0; e < interior.size(); ++e)
-      if (interior.row[e] == interior.column[e])
-        diagonal_entry[interior.row[e]] = e;
-    factor.is_factored = shifted_factor.is_factored = false;
+    if (interior.column.size() > 2 * entries.size() || !interior.set_values(entries))
+    {
+      set_pattern(entries);
+      interior.set_values(entries);
+    }
+    for (Factor *const used : {&factor, &shifted_factor})
+      if (used->is_set_up)
+        used->interior.changed();
   }
 
   void SparseOperator::set_border(const std::size_t i, const std::vector<double> &entries)
@@ -58,21 +65,26 @@ namespace taut
         row.inside.push_back(static_cast<unsigned int>(j));
     for (std::size_t k = n_interior; k < n; ++k)
       border[k - n_interior].entries[i] = entries[k];
-    factor.is_current[b] = shifted_factor.is_current[b] = 0;
+    for (Factor *const used : {&factor, &shifted_factor})
+      if (used->is_set_up)
+        used->is_current[b] = 0;
   }
 
   void SparseOperator::set_diagonal(const std::size_t i, const double value)
   {
-    double &entry =
-        i < n_interior ? interior.value[diagonal_entry[i]] : border[i - n_interior].entries[i];
+    double &entry = i < n_interior ? interior.diagonal[i] : border[i - n_interior].entries[i];
     if (entry == value)
       return;
     entry = value;
     for (Factor *const used : {&factor, &shifted_factor})
-      if (i >= n_interior)
+    {
+      if (!used->is_set_up)
+        continue;
+      if (i < n_interior)
+        used->interior.changed(i);
+      else
         used->is_current[i - n_interior] = 0;
-      else if (used->is_factored && used->active[i])
-        used->is_factored = false;
+    }
   }
 
   /// y = sum_j weight(F_ij) weight(x_j).
@@ -81,13 +93,18 @@ namespace taut
                                 const Weight &weight) const
   {
     y.assign(n, 0.);
-    for (std::size_t e = 0; e < interior.size(); ++e)
+    for (std::size_t i = 0; i < n_interior; ++i)
     {
-      const int i = interior.row[e], j = interior.column[e];
-      const double entry = weight(interior.value[e]);
-      y[i] += entry * weight(x[j]);
-      if (i != j)
-        y[j] += entry * weight(x[i]);
+      const double x_i = weight(x[i]);
+      double sum = 0.;
+      for (std::size_t e = interior.begin[i]; e < interior.begin[i + 1]; ++e)
+      {
+        const unsigned int j = interior.column[e];
+        const double entry = weight(interior.value[e]);
+        sum += entry * weight(x[j]);
+        y[j] += entry * x_i;
+      }
+      y[i] = sum + weight(interior.diagonal[i]) * x_i;
     }
     for (std::size_t b = 0; b < border.size(); ++b)
     {
@@ -116,9 +133,40 @@ namespace taut
     multiply(x, y, [](const double number) { return std::abs(number); });
   }
 
+  void SparseOperator::Factor::reinit(const std::shared_ptr<const EliminationPattern> &pattern,
+                                      const std::size_t n_border)
+  {
+    interior.reinit(pattern);
+    response.assign(n_border, std::vector<double>(pattern->size(), 0.));
+    reached.assign(n_border, {});
+    for (std::vector<unsigned int> &places : reached)
+      places.reserve(pattern->size());
+    schur.reinit(n_border);
+    forget_responses();
+    is_set_up = true;
+  }
+
+  void SparseOperator::Factor::forget_responses()
+  {
+    is_current.assign(response.size(), 0);
+  }
+
+  double SparseOperator::Factor::share(const std::size_t b, const std::vector<double> &x) const
+  {
+    const std::vector<double> &own = response[b], &inverse = interior.inverse_pivots();
+    double sum = 0.;
+    for (const unsigned int k : reached[b])
+      sum += own[k] * inverse[k] * x[k];
+    return sum;
+  }
+
   bool SparseOperator::prepare(Factor &used, const std::vector<std::size_t> &set,
                                const double shift)
   {
+    if (!pattern)
+      pattern = std::make_shared<EliminationPattern>(interior);
+    if (!used.is_set_up)
+      used.reinit(pattern, border.size());
     active.assign(n_interior, 0);
     active_border.clear();
     for (const std::size_t i : set)
@@ -126,15 +174,14 @@ namespace taut
         active[i] = 1;
       else
         active_border.push_back(i - n_interior);
-    if (!used.is_factored || used.shift != shift || used.active != active)
-    {
-      used.shift = shift;
-      used.active = active;
-      used.is_current.assign(border.size(), 0);
-      used.is_factored = factor_interior(used);
-    }
-    if (!used.is_factored)
+    if (used.shift != shift)
+      used.forget_responses();
+    used.shift = shift;
+    if (!used.interior.factor(interior, active, shift))
       return false;
+    if (used.version != used.interior.version())
+      used.forget_responses();
+    used.version = used.interior.version();
     for (const std::size_t b : active_border)
     {
       if (!used.is_current[b])
@@ -145,76 +192,62 @@ namespace taut
     return true;
   }
 
-  /// Factors F_aa + shift diag(F_aa) in the pattern of all rows; rows that are not active have a
-  /// unit diagonal alone. Returns false if rows are dependent.
-  bool SparseOperator::factor_interior(Factor &used)
-  {
-    factored = interior;
-    for (std::size_t e = 0; e < factored.size(); ++e)
-    {
-      const int i = factored.row[e], j = factored.column[e];
-      if (i == j)
-        factored.value[e] = active[i] ? factored.value[e] * (1. + used.shift) : 1.;
-      else if (!active[i] || !active[j])
-        factored.value[e] = 0.;
-    }
-    return used.interior.factor(n_interior, factored, smallest_pivot) == n_interior;
-  }
-
   /// The response of row b of the border, and its row of the Schur complement.
   void SparseOperator::respond(Factor &used, const std::size_t b) const
   {
     const BorderRow &row = border[b];
     std::vector<double> &response = used.response[b];
-    response.assign(n_interior, 0.);
+    std::vector<unsigned int> &places = used.reached[b];
+    for (const unsigned int k : places)
+      response[k] = 0.;
+    places.clear();
     for (const unsigned int j : row.inside)
       if (active[j])
-        response[j] = row.entries[j];
-    used.interior.solve(response);
+      {
+        places.push_back(pattern->position[j]);
+        response[places.back()] = row.entries[j];
+      }
+    used.interior.solve_lower(response, places);
     used.is_current[b] = 1;
     for (std::size_t q = 0; q < border.size(); ++q)
       if (used.is_current[q])
         used.schur.set(b, q,
                        row.entries[n_interior + q] * (q == b ? 1. + used.shift : 1.) -
-                           inside(b, used.response[q]));
-  }
-
-  /// F_ba x_a, where x is 0 on rows of the interior that are not active.
-  double SparseOperator::inside(const std::size_t b, const std::vector<double> &x) const
-  {
-    double sum = 0.;
-    for (const unsigned int j : border[b].inside)
-      sum += border[b].entries[j] * x[j];
-    return sum;
+                           used.share(b, used.response[q]));
   }
 
   /**
-   * Block elimination with the interior a and the border b:
+   * Block elimination with the interior a and the border b, z = L^-1 r_a:
    *
-   *     (F_bb - F_ba F_aa^-1 F_ab) x_b = r_b - F_ba F_aa^-1 r_a,
-   *     x_a = F_aa^-1 r_a - F_aa^-1 F_ab x_b.
+   *     (F_bb - F_ba F_aa^-1 F_ab) x_b = r_b - F_ba L^-T D^-1 z,
+   *     x_a = L^-T D^-1 (z - L^-1 F_ab x_b).
    */
   bool SparseOperator::solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
                              const double shift, std::vector<double> &x)
   {
-    Factor &used = shift == 0. ? factor : shifted_factor;
+    Factor &used = of_shift(shift);
     if (!prepare(used, set, shift))
       return false;
     work.assign(n_interior, 0.);
     for (std::size_t i = 0; i < n_interior; ++i)
       if (active[i])
-        work[i] = rhs[i];
-    used.interior.solve(work);
+        work[pattern->position[i]] = rhs[i];
+    used.interior.solve_lower(work);
     rhs_border.assign(border.size(), 0.);
     for (const std::size_t b : active_border)
-      rhs_border[b] = rhs[n_interior + b] - inside(b, work);
+      rhs_border[b] = rhs[n_interior + b] - used.share(b, work);
     if (!used.schur.solve(active_border, rhs_border, 0., x_border))
       return false;
-    x.resize(n);
-    std::copy(work.begin(), work.end(), x.begin());
     for (const std::size_t b : active_border)
-      for (std::size_t i = 0; i < n_interior; ++i)
-        x[i] -= used.response[b][i] * x_border[b];
+      for (const unsigned int k : used.reached[b])
+        work[k] -= used.response[b][k] * x_border[b];
+    const std::vector<double> &inverse = used.interior.inverse_pivots();
+    for (std::size_t k = 0; k < n_interior; ++k)
+      work[k] *= inverse[k];
+    used.interior.solve_upper(work);
+    x.resize(n);
+    for (std::size_t i = 0; i < n_interior; ++i)
+      x[i] = work[pattern->position[i]];
     std::copy(x_border.begin(), x_border.end(), x.begin() + n_interior);
     return true;
   }
@@ -224,60 +257,47 @@ namespace taut
                                           std::vector<double> &result)
   {
     result.assign(n, 0.);
+    const bool is_definite = prepare(factor, set, 0.);
+    Factor &used = is_definite ? factor : shifted_factor;
+    const bool is_solved = is_definite || prepare(used, set, shift);
+    work.assign(n_interior, 0.);
+    rhs_border.assign(border.size(), 0.);
     for (const std::size_t i : wanted)
-      result[i] = diagonal(i);
-    if (prepare(factor, set, 0.))
-      condense(factor, wanted, result);
-    else if (prepare(shifted_factor, set, shift))
-      condense(shifted_factor, wanted, result);
+      result[i] = is_solved ? condensed(used, i) : diagonal(i);
   }
 
-  /// Takes F_ia F_aa^-1 F_ai of the current set from F_ii of the rows that are wanted.
-  void SparseOperator::condense(Factor &used, const std::vector<std::size_t> &wanted,
-                                std::vector<double> &result)
+  /// F_ii - F_ia F_aa^-1 F_ai of the current set; `work` is 0 before and after.
+  double SparseOperator::condensed(Factor &used, const std::size_t i)
   {
-    const std::size_t none = wanted.size();
-    std::vector<std::size_t> place(n, none);
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-      place[wanted[k]] = k;
-    std::vector<LinearForm> columns(wanted.size());
-    const auto add = [&](const std::size_t i, const unsigned int j, const double entry)
+    places.clear();
+    const auto place = [&](const std::size_t j, const double entry)
     {
-      if (place[i] != none && active[j])
-        columns[place[i]].add(j, entry);
+      if (!active[j])
+        return;
+      places.push_back(pattern->position[j]);
+      work[places.back()] = entry;
     };
-    for (std::size_t e = 0; e < interior.size(); ++e)
+    if (i < n_interior)
     {
-      add(interior.row[e], interior.column[e], interior.value[e]);
-      if (interior.row[e] != interior.column[e])
-        add(interior.column[e], interior.row[e], interior.value[e]);
+      place(i, interior.diagonal[i]);
+      for (std::size_t e = interior.neighbours_begin[i]; e < interior.neighbours_begin[i + 1]; ++e)
+        place(interior.neighbours[e].row, interior.value[interior.neighbours[e].entry]);
     }
-    for (std::size_t b = 0; b < border.size(); ++b)
-      for (const unsigned int j : border[b].inside)
-        add(n_interior + b, j, border[b].entries[j]);
-
-    SparseHalves halves;
-    for (std::size_t first = 0; n_interior > 0 && first < wanted.size();
-         first += SparseHalves::lanes)
+    else
+      for (const unsigned int j : border[i - n_interior].inside)
+        place(j, border[i - n_interior].entries[j]);
+    used.interior.solve_lower(work, places);
+    double result = diagonal(i);
+    for (const std::size_t b : active_border)
+      rhs_border[b] = border[b].entries[i] - used.share(b, work);
+    for (const unsigned int k : places)
     {
-      const std::size_t n_lanes = std::min(SparseHalves::lanes, wanted.size() - first);
-      std::vector<const LinearForm *> together;
-      for (std::size_t l = 0; l < n_lanes; ++l)
-        together.push_back(&columns[first + l]);
-      used.interior.half_solutions(together, halves);
-      for (std::size_t e = 0; e < halves.index.size(); ++e)
-        for (std::size_t l = 0; l < n_lanes; ++l)
-          result[wanted[first + l]] -= std::pow(halves.value[SparseHalves::lanes * e + l], 2);
+      result -= work[k] * used.interior.inverse_pivots()[k] * work[k];
+      work[k] = 0.;
     }
-
-    rhs_border.assign(border.size(), 0.);
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-    {
+    if (!active_border.empty() && used.schur.solve(active_border, rhs_border, 0., x_border))
       for (const std::size_t b : active_border)
-        rhs_border[b] = border[b].entries[wanted[k]] - columns[k].dot(used.response[b]);
-      if (!active_border.empty() && used.schur.solve(active_border, rhs_border, 0., x_border))
-        for (const std::size_t b : active_border)
-          result[wanted[k]] -= rhs_border[b] * x_border[b];
-    }
+        result -= rhs_border[b] * x_border[b];
+    return result;
   }
 } // namespace taut

@@ -339,7 +339,7 @@ namespace taut
   void Motion::keep()
   {
     Parts &p = *parts;
-    Before &b = p.before;
+    Parts::Before &b = p.before;
     b.rows = p.state;
     b.time = p.state.time;
     b.last_step = p.state.last_step;
@@ -362,7 +362,7 @@ namespace taut
   void Motion::take_back()
   {
     Parts &p = *parts;
-    const Before &b = p.before;
+    const Parts::Before &b = p.before;
     p.step.history().take_back(p.state);
     static_cast<RowStates &>(p.state) = b.rows;
     p.state.time = b.time;

@@ -45,7 +45,7 @@ namespace
     return cable_to({8., 0., 0.}, 10., {1e6, 1., 1., axial_damping}, 32);
   }
 
-  struct Motion
+  struct MotionOfCable
   {
     double energy_change = 0.; ///< largest rise over the first energy above that at rest
     double energy_loss = 0.;
@@ -60,8 +60,8 @@ namespace
     return cable.strain_energy(U) + .5 * dot(V, matrix_times(cable.mass(), V)) - dot(P, U);
   }
 
-  Motion swing(const CableData &data, const double angle, const double step, const double end,
-               const std::string &scheme = "automatic")
+  MotionOfCable swing(const CableData &data, const double angle, const double step,
+                      const double end, const std::string &scheme = "automatic")
   {
     const OneCable<TurnedCable> one(data, angle);
     const Cable *const cable = one.cable;
@@ -72,7 +72,7 @@ namespace
     cable->initial_state(U, V);
     const double start = energy(*cable, U, V),
                  scale = start - energy(*cable, std::vector<double>(U.size(), 0.), V);
-    Motion motion;
+    MotionOfCable motion;
     int n = 0;
     for (; stepper.time() < end - .5 * step; ++n)
     {
@@ -156,7 +156,7 @@ TEST(CableMotions, slack_span_keeps_its_energy)
 {
   for (const auto &[step, most] : {std::pair{.01, 11.}, {.005, 8.5}, {.002, 7.}})
   {
-    const Motion motion = swing(slack_span(), .5 * pi, step, 3.);
+    const MotionOfCable motion = swing(slack_span(), .5 * pi, step, 3.);
     EXPECT_LE(std::max(motion.energy_change, motion.energy_loss), 1e-7) << step;
     EXPECT_LE(motion.iterations, most) << step;
   }
@@ -164,7 +164,7 @@ TEST(CableMotions, slack_span_keeps_its_energy)
 
 TEST(CableMotions, axial_damping_only_takes_energy)
 {
-  const Motion motion = swing(slack_span(1e3), .5 * pi, .005, 3.);
+  const MotionOfCable motion = swing(slack_span(1e3), .5 * pi, .005, 3.);
   EXPECT_LE(motion.energy_change, 1e-9);
   EXPECT_GT(motion.energy_loss, 1e-4);
   EXPECT_LT(motion.energy_loss, .5);

@@ -43,16 +43,16 @@ namespace
     return {N[0], N[1], N[2]};
   }
 
-  using Motion = std::array<double, 6>; ///< place and velocity
+  using Swing = std::array<double, 6>; ///< place and velocity
 
-  Coordinates place_of(const Motion &y)
+  Coordinates place_of(const Swing &y)
   {
     return {y[0], y[1], y[2]};
   }
 
   /// Rates of the load on springs and dampers without mass that only pull; a third of the mass of
   /// the ropes moves with it, and half of it hangs on it.
-  void rates_on_springs(const Motion &y, Motion &rates, const double /*time*/)
+  void rates_on_springs(const Swing &y, Swing &rates, const double /*time*/)
   {
     const double ropes = mass_per_length * (lengths[0] + lengths[1] + lengths[2]);
     Coordinates force = {0., -(mass + ropes / 2.) * g, 0.};
@@ -128,7 +128,7 @@ TEST(SwingingLoad, guys_take_it_in_turn)
   JoinedCatenaries exact = at_rest({pull, 0., 0.});
   ASSERT_LT(exact.solve(), 1e-8);
   const Coordinates start = exact.places[0];
-  Motion springs = {start.x, start.y, start.z, 0., 0., 0.};
+  Swing springs = {start.x, start.y, start.z, 0., 0., 0.};
   double time = 0., straight = 0., error_before = 0., error_after = 0.;
   std::array<double, n_guys> largest{}, at{};
   Session session(scene_file("swinging_load_on_guys"), {"Output.Interval=0"});
@@ -138,7 +138,7 @@ TEST(SwingingLoad, guys_take_it_in_turn)
         // The force of the first step is the mean of 1800 N and none: half a step later.
         const double now = std::max(0., step.state.time - .0025);
         const int n = 50; // small against the vibrations on the guys
-        boost::numeric::odeint::runge_kutta4<Motion> scheme;
+        boost::numeric::odeint::runge_kutta4<Swing> scheme;
         for (int i = 0; i < n; ++i)
           scheme.do_step(rates_on_springs, springs, time, (now - time) / n);
         time = now;

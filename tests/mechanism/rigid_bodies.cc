@@ -4,6 +4,8 @@
 // integral of the compound pendulum; the impulse of Newton's laws.
 #include "mechanism/rigid_body_run.h"
 
+#include <taut/substructure/local_solver.h>
+
 #include <boost/math/special_functions/ellint_1.hpp>
 
 #include <array>

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <taut/substructure/factored_structure.h>
 
 using namespace verification;
 

@@ -5,6 +5,7 @@
 // Euler, EA u" = rho/step^2 u, by hyperbolic functions; rigid bodies by Newton's law.
 #include "scene_tests.h"
 
+#include <taut/substructure/factored_structure.h>
 #include <taut/time/integrator.h>
 
 #include <filesystem>

@@ -111,9 +111,14 @@ namespace taut
     std::size_t memory_consumption() const;
 
   private:
+    friend std::vector<unsigned int> fill_reducing_order(std::size_t, const SymmetricEntries &);
     struct Workspace; ///< CHOLMOD's
     std::unique_ptr<Workspace> work;
   };
+
+  /// The rows in an order of elimination for which the Cholesky factor of a matrix with these
+  /// positions has few entries. Each diagonal entry must be among them.
+  std::vector<unsigned int> fill_reducing_order(std::size_t n, const SymmetricEntries &positions);
 } // namespace taut
 
 #endif

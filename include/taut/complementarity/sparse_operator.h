@@ -2,9 +2,10 @@
 #ifndef taut_sparse_operator_h
 #define taut_sparse_operator_h
 
-#include <taut/base/sparse_cholesky.h>
 #include <taut/complementarity/dense_operator.h>
+#include <taut/complementarity/patterned_cholesky.h>
 
+#include <memory>
 #include <vector>
 
 namespace taut
@@ -12,8 +13,9 @@ namespace taut
   /**
    * F as a sparse matrix with a sparse factor. Use it for many constraints that act on each other
    * only near by: along a line F is banded. The last rows are a border that may change in every
-   * step: a changed row costs one solve with the kept factor of the other rows. These are factored
-   * again when one of them opens or closes; order and pattern of the factor stay.
+   * step: a changed row costs one forward substitution with the kept factor of the other rows.
+   * Rows that open or close have only the rows factored again that depend on them. Nothing is
+   * allocated while the pattern stays, except a second factor at the first call with a shift.
    */
   class SparseOperator : public ComplementarityOperator
   {
@@ -22,7 +24,7 @@ namespace taut
     void reinit(std::size_t n, std::size_t n_border);
 
     /// Sets the entries of the rows before the border; earlier entries are replaced, entries of one
-    /// position add.
+    /// position add. The pattern of all entries since reinit() is kept while these fill half of it.
     void set_interior(const SymmetricEntries &entries);
 
     /// Sets row i of the border, n entries: F_ij = F_ji = entries[j]. Where two rows of the border
@@ -35,7 +37,7 @@ namespace taut
     std::size_t size() const override { return n; }
     double diagonal(std::size_t i) const override
     {
-      return i < n_interior ? interior.value[diagonal_entry[i]] : border[i - n_interior].entries[i];
+      return i < n_interior ? interior.diagonal[i] : border[i - n_interior].entries[i];
     }
     void apply(const std::vector<double> &x, std::vector<double> &y) const override;
 
@@ -52,7 +54,7 @@ namespace taut
                             std::vector<double> &result) override;
 
     /// Stored entries of the lower triangle before the border.
-    std::size_t n_entries() const { return interior.size(); }
+    std::size_t n_entries() const { return interior.column.size() + n_interior; }
 
   private:
     struct BorderRow
@@ -65,40 +67,44 @@ namespace taut
     /// F_bb - F_ba F_aa^-1 F_ab of its rows b in the border.
     struct Factor
     {
-      SparseCholesky interior;  ///< of F_aa, with unit rows for the others
-      bool is_factored = false; ///< with the values of F, and the set and the shift that follow
-      std::vector<char> active; ///< rows of the interior
+      bool is_set_up = false;
       double shift = 0.;
-
-      std::vector<std::vector<double>> response; ///< F_aa^-1 F_ab of each row b, n_interior
-      std::vector<char> is_current;              ///< of each response, and its row of `schur`
+      PatternedCholesky interior;
+      std::size_t version = 0;                        ///< of the interior factor of the responses
+      std::vector<std::vector<double>> response;      ///< L^-1 F_ab of each row b, by place
+      std::vector<std::vector<unsigned int>> reached; ///< places where a response is not 0
+      std::vector<char> is_current;                   ///< of each response, and its row of `schur`
       DenseOperator schur;
+
+      void reinit(const std::shared_ptr<const EliminationPattern> &pattern, std::size_t n_border);
+      void forget_responses();
+
+      /// The part of row b of the border in the elimination of numbers by place.
+      double share(std::size_t b, const std::vector<double> &x) const;
     };
 
+    void set_pattern(const SymmetricEntries &entries);
     template <typename Weight>
     void multiply(const std::vector<double> &x, std::vector<double> &y, const Weight &weight) const;
     bool prepare(Factor &used, const std::vector<std::size_t> &set, double shift);
-    bool factor_interior(Factor &used);
     void respond(Factor &used, std::size_t b) const;
-    double inside(std::size_t b, const std::vector<double> &x) const;
-    void condense(Factor &used, const std::vector<std::size_t> &wanted,
-                  std::vector<double> &result);
+    double condensed(Factor &used, std::size_t i);
+    Factor &of_shift(const double shift) { return shift == 0. ? factor : shifted_factor; }
 
     std::size_t n = 0, n_interior = 0;
-    SymmetricEntries interior;               ///< ordered, each row with its diagonal
-    std::vector<std::size_t> diagonal_entry; ///< index in `interior` of each row
+    SparseTriangle interior;
     std::vector<BorderRow> border;
+    std::shared_ptr<const EliminationPattern> pattern; ///< of the interior, after the first solve()
 
-    /// An unshifted and a shifted factor, so that a redundant set does not refactor both in every
+    /// A shifted and an unshifted factor, so that a redundant set does not refactor both in every
     /// step.
     Factor factor, shifted_factor;
 
     /// The current set: its rows in the interior, and in the border.
     std::vector<char> active;
     std::vector<std::size_t> active_border;
-
-    SymmetricEntries factored; ///< the matrix of the factor
-    std::vector<double> work, rhs_border, x_border;
+    std::vector<double> work, rhs_border, x_border; ///< by place; by row of the border
+    std::vector<unsigned int> places;               ///< of entries of `work`
   };
 } // namespace taut
 
