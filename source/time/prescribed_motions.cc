@@ -9,8 +9,8 @@ namespace taut
 {
   PrescribedMotions::PrescribedMotions(const Structure &structure, const Reference &reference,
                                        const StepMethod &method)
-      : structure(structure), reference(reference), method(method), moving(structure.size()), dU(structure.zero()),
-        body_lifts(structure.size(), 0)
+      : structure(structure), reference(reference), method(method), moving(structure.size()),
+        dU(structure.zero()), body_lifts(structure.size(), 0)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {

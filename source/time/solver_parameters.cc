@@ -22,11 +22,11 @@ namespace taut
         "small steps, many bodies. 'matrix-free': applied through the factors of the bodies, "
         "solved by conjugate gradients: least memory.",
         Patterns::Selection("automatic|assembled dense|assembled sparse|matrix-free"));
-    prm.add_parameter(
-        "Preconditioner", interface.preconditioner,
-        "Of the matrix-free operator. 'diagonal': 1/F_ii. 'Dirichlet': the Schur complements of the "
-        "bodies at the constraints, fewest iterations.",
-        Patterns::Selection("diagonal|Dirichlet"));
+    prm.add_parameter("Preconditioner", interface.preconditioner,
+                      "Of the matrix-free operator. 'diagonal': 1/F_ii. 'Dirichlet': the Schur "
+                      "complements of the "
+                      "bodies at the constraints, fewest iterations.",
+                      Patterns::Selection("diagonal|Dirichlet"));
     prm.add_parameter(
         "Coarse space", interface.coarse_space,
         "Of the matrix-free operator. 'rigid body modes': those of floating bodies are solved "

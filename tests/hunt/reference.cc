@@ -131,7 +131,8 @@ namespace hunt
       for (std::size_t i = 0; i < m; ++i)
       {
         const double N = view.state.multiplier[i];
-        impulse[i] += (view.report.is_mean(i) ? N : .5 * (N + multiplier[i])) * view.state.last_step;
+        impulse[i] +=
+            (view.report.is_mean(i) ? N : .5 * (N + multiplier[i])) * view.state.last_step;
         multiplier[i] = N;
       }
     if (n_steps++ % stride != 0)

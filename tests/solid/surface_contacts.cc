@@ -160,8 +160,7 @@ TEST(SurfaceContacts, a_slit_is_pressed_shut)
   cells.refine_global(3);
   const MeshFile mesh(cells, 10);
   const double strain = 1e-3, stress = 1e9 * .7 / (1.3 * .4) * strain;
-  for (const std::string operator_name :
-       {"assembled dense", "assembled sparse", "matrix-free"})
+  for (const std::string operator_name : {"assembled dense", "assembled sparse", "matrix-free"})
   {
     const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
 Body square: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;

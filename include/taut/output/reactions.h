@@ -4,8 +4,8 @@
 
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/time/step_report.h>
 #include <taut/time/state.h>
+#include <taut/time/step_report.h>
 
 #include <string>
 #include <vector>
@@ -37,8 +37,8 @@ namespace taut
     /// @p scene and @p structure are kept by reference.
     Reactions(const Scene &scene, const SceneBodies &structure);
 
-    /// Updates forces for a state with a known balance: an accepted step, and what it told. Called by
-    /// all ranks together.
+    /// Updates forces for a state with a known balance: an accepted step, and what it told. Called
+    /// by all ranks together.
     void update(const Reference &reference, const State &state, const Constraints &constraints,
                 const StepReport &report);
 

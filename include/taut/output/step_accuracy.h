@@ -69,7 +69,7 @@ namespace taut
 
     const RunInSteps run;
     const ConnectedBodies groups;
-    const double work;                              ///< of the run: DoFs times steps
+    const double work; ///< of the run: DoFs times steps
     const std::size_t n_samples;
     const double interval; ///< between samples [s]
     MotionRecord own;
