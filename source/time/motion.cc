@@ -219,6 +219,7 @@ namespace taut
   void Motion::prepare(const long n_steps)
   {
     const double longest = options.steps.longest(options.step);
+    integrator->coefficients(longest); // throws if its entries make no method
     check_mass(*integrator, structure);
     if (options.scheme != "automatic" && !options.allow_unsuitable_scheme)
       check_scheme(
