@@ -65,9 +65,11 @@ namespace taut
   {
     const std::string content = archived([&](OutputArchive &archive) { archive << checkpoint; });
     const std::string path = folder + "/" + checkpoint_names[0];
-    // Between both renames only the old checkpoint exists, which is enough.
+    // Between both renames only the old checkpoint exists, which is enough. A damaged one must not
+    // replace a good one.
+    Checkpoint last;
     const std::string before = folder + "/" + checkpoint_names[1];
-    if (std::rename(path.c_str(), before.c_str()) != 0 && errno != ENOENT)
+    if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
       throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
                        "; check that its folder is writable and the disk not full");
     replace_file(path, first_line + checksum(content) + content);
