@@ -144,3 +144,47 @@ TEST(Operators, setting_up_takes_as_many_exchanges_whatever_the_size)
     EXPECT_EQ(exchanges[0] > 0, taut::Communicator(MPI_COMM_WORLD).size() > 1) << form;
   }
 }
+
+// A solid with more constraints than the dense form keeps columns for: the block of the fixed
+// constraints is made of half columns. Both ends of a constraint are on one body here, where an
+// entry of the body counts twice. Source: F x by solves of the bodies, matrix-free.
+TEST(Operators, half_columns_are_those_of_solves)
+{
+  constexpr std::size_t n_masses = 23, n = 170;
+  taut::Communicator processes(MPI_COMM_WORLD);
+  taut::System system(processes);
+  std::vector<double> masses, springs;
+  for (std::size_t i = 0; i < n_masses; ++i)
+  {
+    masses.push_back(mass(i));
+    springs.push_back(1e6 * stiffness(i));
+  }
+  for (const std::size_t rank : {std::size_t(0), processes.size() - std::size_t(1)})
+    system.add("chain", rank, [&] { return door::chain_of("chain", masses, springs); });
+  const auto up = [&](const std::size_t body, const std::size_t i) {
+    return system.displacement(body, {static_cast<double>(i % n_masses), 0., 0.}, {0., 1., 0.});
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    system.add(taut::Constraint::unilateral("stop " + std::to_string(i), up(i % 2, i),
+                                            up(i % 3 == 0 ? 1 - i % 2 : i % 2, 5 * i + 1)));
+  taut::Structure structure = system.structure();
+  const taut::Constraints constraints = system.constraints(structure);
+  taut::FactoredStructure solvers(structure, "sparse direct");
+  solvers.factor(mass_factor, 0.);
+  const std::vector<double> x = some_multipliers(n);
+  std::vector<double> dense(n), free(n);
+  for (const auto &[form, y] : {std::pair("assembled dense", &dense), {"matrix-free", &free}})
+  {
+    taut::InterfaceParameters parameters;
+    parameters.form = form;
+    const auto F = taut::make_schur_complement(parameters, solvers, constraints);
+    F->setup(std::vector<double>(n, 0.));
+    F->matrix().apply(x, *y);
+    EXPECT_EQ(F->description().find("by half columns") != std::string::npos, y == &dense);
+  }
+  const double largest = std::fabs(*std::max_element(
+      free.begin(), free.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+  ASSERT_GT(largest, 0.);
+  for (std::size_t i = 0; i < n; ++i)
+    EXPECT_NEAR(dense[i], free[i], 1e-12 * largest) << i;
+}
