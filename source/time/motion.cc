@@ -384,7 +384,8 @@ namespace taut
   }
 
   /// Reports a nonlinear step without solution, so that a shorter step can replace it.
-  void Motion::attempt(const std::function<void()> &work)
+  template <typename Work>
+  void Motion::attempt(const Work &work)
   {
     try
     {

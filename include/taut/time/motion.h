@@ -13,7 +13,6 @@
 #include <taut/time/step_parameters.h>
 #include <taut/time/step_report.h>
 
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -188,7 +187,8 @@ namespace taut
     void keep();
     void step_on();
     void begin_step();
-    void attempt(const std::function<void()> &work);
+    template <typename Work>
+    void attempt(const Work &work);
     void solve();
     void project_velocities();
     void check_moving_contacts();
