@@ -6,8 +6,8 @@ include(CMakePackageConfigHelpers)
 # libraries below deal.II that the loader does not search by itself are added.
 file(RELATIVE_PATH library_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(taut PROPERTIES INSTALL_RPATH_USE_LINK_PATH TRUE)
-set_target_properties(taut-program PROPERTIES INSTALL_RPATH "$ORIGIN/${library_from_program}")
-set_target_properties(taut_run PROPERTIES INSTALL_RPATH "$ORIGIN" INSTALL_RPATH_USE_LINK_PATH TRUE)
+set_target_properties(taut-program PROPERTIES
+  INSTALL_RPATH "$ORIGIN/${library_from_program}" INSTALL_RPATH_USE_LINK_PATH TRUE)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/source/cmake/tautConfig.cmake.in
@@ -16,7 +16,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigV
   COMPATIBILITY SameMinorVersion)
 
 # A Debug build adds its library, libtaut.g, to what a Release build installed.
-install(TARGETS taut-program taut_memory taut_run CONFIGURATIONS Release
+install(TARGETS taut-program taut_memory CONFIGURATIONS Release
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS taut EXPORT taut)
 install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${package_folder})

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/gather_entries.h>
+#include <taut/base/groups.h>
 #include <taut/interface/connected_bodies.h>
 
-#include <numeric>
+#include <algorithm>
 
 namespace taut
 {
@@ -16,29 +17,21 @@ namespace taut
           acts_on.add(i, structure.number(term.substructure), 1.);
     gather(structure.communicator(), acts_on);
 
-    std::vector<std::size_t> root(structure.all_bodies().size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::size_t b)
-    {
-      while (root[b] != b)
-        b = root[b] = root[root[b]];
-      return b;
-    };
+    Groups groups(structure.all_bodies().size());
     constexpr std::size_t none = no_link;
     std::vector<std::size_t> first(constraints.size(), none);
     for (std::size_t e = 0; e < acts_on.size(); ++e)
       if (std::size_t &other = first[acts_on.row[e]]; other == none)
         other = acts_on.column[e];
       else if (!connects || connects(acts_on.row[e]))
-        root[find(acts_on.column[e])] = find(other);
+        groups.join(acts_on.column[e], other);
 
-    std::vector<std::size_t> group(root.size(), none);
-    for (std::size_t b = 0; b < root.size(); ++b)
-      if (std::size_t &number = group[find(b)]; number == none)
-        number = n++;
+    const std::vector<std::size_t> group = groups.numbers();
+    for (const std::size_t number : group)
+      n = std::max(n, number + 1);
     for (std::size_t k = 0; k < structure.size(); ++k)
-      body.push_back(group[find(structure.number(k))]);
+      body.push_back(group[structure.number(k)]);
     for (const std::size_t b : first)
-      constraint.push_back(b == none ? 0 : group[find(b)]);
+      constraint.push_back(b == none ? 0 : group[b]);
   }
 } // namespace taut

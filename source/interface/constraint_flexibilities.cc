@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "constraint_flexibilities.h"
 
+#include <taut/base/groups.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace taut
@@ -62,28 +63,15 @@ namespace taut
   /// After factoring: of body k.
   void RowFlexibilities::find_coupling(const std::size_t k)
   {
-    std::vector<unsigned int> root(solvers.structure()[k].n_dofs());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](unsigned int i)
-    {
-      while (root[i] != i)
-        i = root[i] = root[root[i]];
-      return i;
-    };
+    Groups coupled(solvers.structure()[k].n_dofs());
     solvers.visit(k,
                   [&](unsigned int i, unsigned int j, double value)
                   {
                     if (i != j && value != 0.)
-                      root[find(i)] = find(j);
+                      coupled.join(i, j);
                   });
-    std::vector<unsigned int> number(root.size(), 0);
-    n_groups[k] = 0;
-    for (unsigned int i = 0; i < root.size(); ++i)
-      if (root[i] == i)
-        number[i] = n_groups[k]++;
-    group_of[k].clear();
-    for (unsigned int i = 0; i < root.size() && n_groups[k] > 1; ++i)
-      group_of[k].push_back(number[find(i)]);
+    n_groups[k] = coupled.members().size();
+    group_of[k] = n_groups[k] > 1 ? coupled.numbers() : std::vector<std::size_t>();
   }
 
   /// Of the constraints of body k, after they or its factor have changed.

@@ -64,8 +64,8 @@ namespace taut
     const FactoredStructure &solvers;
     const BodyConstraints &constraints;
     const std::vector<char> is_cut;
-    std::vector<std::vector<Part>> parts;            ///< of each body
-    std::vector<std::vector<unsigned int>> group_of; ///< group of each DoF; empty: one group
+    std::vector<std::vector<Part>> parts;           ///< of each body
+    std::vector<std::vector<std::size_t>> group_of; ///< group of each DoF; empty: one group
     std::vector<unsigned int> n_groups;
     std::vector<double> compliance, entries, scales;
     std::vector<double> of_bodies, local_of_bodies; ///< without compliances

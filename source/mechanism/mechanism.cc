@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/groups.h>
 #include <taut/base/text.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/scene/travel.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace taut
 {
@@ -240,26 +240,10 @@ namespace taut
 
   std::vector<std::vector<std::size_t>> connected_masses(const Scene &scene)
   {
-    std::vector<std::size_t> root(scene.masses.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::size_t i)
-    {
-      while (root[i] != i)
-        i = root[i];
-      return i;
-    };
+    Groups groups(scene.masses.size());
     for (const Spring &spring : scene.springs)
       if (spring.from != ground && spring.to != ground)
-      {
-        const std::size_t a = find(spring.from), b = find(spring.to);
-        root[std::max(a, b)] = std::min(a, b);
-      }
-    std::vector<std::vector<std::size_t>> groups(scene.masses.size());
-    for (std::size_t i = 0; i < scene.masses.size(); ++i)
-      groups[find(i)].push_back(i);
-    groups.erase(
-        std::remove_if(groups.begin(), groups.end(), [](const auto &g) { return g.empty(); }),
-        groups.end());
-    return groups;
+        groups.join(spring.from, spring.to);
+    return groups.members();
   }
 } // namespace taut

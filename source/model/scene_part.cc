@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/groups.h>
 #include <taut/model/scene_part.h>
 
-#include <numeric>
 #include <utility>
 
 namespace taut
@@ -16,18 +16,18 @@ namespace taut
     public:
       explicit Connections(const Scene &scene)
           : n_wires(scene.wires.size()), n_masses(scene.masses.size()),
-            parent(n_wires + n_masses + scene.bodies.size())
+            connected(n_wires + n_masses + scene.bodies.size())
       {
-        std::iota(parent.begin(), parent.end(), 0);
         for (const Spring &spring : scene.springs)
           if (spring.from != ground && spring.to != ground)
-            join(n_wires + spring.from, n_wires + spring.to);
+            connected.join(n_wires + spring.from, n_wires + spring.to);
         for (const Link &link : scene.links)
           if (!link.moving() && link.from.kind != Kind::ground && link.to.kind != Kind::ground)
-            join(number(link.from), number(link.to));
+            connected.join(number(link.from), number(link.to));
         for (const SurfaceContact &contact : scene.contacts)
           if (contact.obstacle.shape == ObstacleSetting::Shape::none)
-            join(n_wires + n_masses + contact.slave.body, n_wires + n_masses + contact.master.body);
+            connected.join(n_wires + n_masses + contact.slave.body,
+                           n_wires + n_masses + contact.master.body);
       }
 
       std::size_t number(const Attachment &end) const
@@ -37,21 +37,12 @@ namespace taut
                                                      : n_wires + n_masses);
       }
 
-      /// The representative of all items that an item is connected with.
-      std::size_t root(std::size_t item) const
-      {
-        while (parent[item] != item)
-          item = parent[item];
-        return item;
-      }
-
-      std::size_t size() const { return parent.size(); }
+      /// Number of the set that each item is in.
+      std::vector<std::size_t> sets() { return connected.numbers(); }
 
     private:
-      void join(const std::size_t a, const std::size_t b) { parent[root(a)] = root(b); }
-
       std::size_t n_wires, n_masses;
-      std::vector<std::size_t> parent;
+      Groups connected;
     };
 
     /// Copies the items that are in the part, and notes their numbers there.
@@ -77,13 +68,14 @@ namespace taut
 
   ScenePart connected_part(const Scene &scene, const std::vector<Attachment> &points)
   {
-    const Connections connections(scene);
-    std::vector<char> root_is_inside(connections.size(), 0), is_inside(connections.size(), 0);
+    Connections connections(scene);
+    const std::vector<std::size_t> set = connections.sets();
+    std::vector<char> set_is_inside(set.size(), 0), is_inside(set.size(), 0);
     for (const Attachment &point : points)
       if (point.kind != Kind::ground)
-        root_is_inside[connections.root(connections.number(point))] = 1;
-    for (std::size_t i = 0; i < is_inside.size(); ++i)
-      is_inside[i] = root_is_inside[connections.root(i)];
+        set_is_inside[set[connections.number(point)]] = 1;
+    for (std::size_t i = 0; i < set.size(); ++i)
+      is_inside[i] = set_is_inside[set[i]];
 
     ScenePart part;
     Scene &inner = part.scene;

@@ -8,8 +8,7 @@
 
 namespace taut
 {
-  /// What a command line asks for, in types of the standard library: the program reads it, and the
-  /// library that the program loads does it.
+  /// What a command line asks for.
   struct CommandLine
   {
     std::string mistake; ///< what is wrong with the command line; empty: nothing
@@ -28,10 +27,7 @@ namespace taut
   CommandLine read_command_line(int argc, char **argv);
 
   /// Does what a command line asks for. Returns the exit code.
-  using Run = int(const CommandLine &line);
-
-  /// Loads libtaut_run and what is below it. Throws UserError if it cannot be loaded.
-  Run *load_run();
+  int run(const CommandLine &line);
 
   constexpr const char *too_large =
       "the scene needs more memory than there is; take larger elements or fewer links";

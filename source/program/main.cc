@@ -52,7 +52,7 @@ namespace
     const taut::CommandLine line = taut::read_command_line(argc, argv);
     // Of many processes only the root speaks: that takes MPI.
     if (taut::started_in_parallel())
-      return taut::load_run()(line);
+      return taut::run(line);
     if (!line.mistake.empty())
       throw taut::UserError(line.mistake);
     if (!line.answer.empty())
@@ -67,11 +67,10 @@ namespace
       throw taut::UserError("cannot start 'mpirun' for --jobs: install Open MPI, or run "
                             "without --jobs");
     }
-    return taut::load_run()(line);
+    return taut::run(line);
   }
 } // namespace
 
-/// Answers what it can without deal.II, whose libraries take longer to load than many a run.
 int main(const int argc, char **argv)
 {
   try

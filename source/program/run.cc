@@ -209,7 +209,7 @@ namespace
   }
 } // namespace
 
-extern "C" int taut_run(const taut::CommandLine &line)
+int taut::run(const CommandLine &line)
 {
   taut::watch_memory();
   usual_end = std::set_terminate(end_without_memory);

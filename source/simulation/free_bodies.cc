@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/groups.h>
 #include <taut/simulation/free_bodies.h>
 
 #include <algorithm>
@@ -53,14 +54,10 @@ namespace taut
   {
     const std::size_t n = null_spaces.size();
     std::vector<std::vector<Vector>> opposed(n);
-    // Groups of joined bodies, each named by one member; n is the ground.
-    std::vector<std::size_t> group(n + 1);
-    std::iota(group.begin(), group.end(), 0);
-    const auto join = [&](const std::size_t a, const std::size_t b)
-    { std::replace(group.begin(), group.end(), std::size_t(group[a]), std::size_t(group[b])); };
+    Groups bodies(n + 1); // n is the ground
     for (std::size_t k = 0; k < n; ++k)
       if (null_spaces[k].vectors.empty())
-        join(k, n);
+        bodies.join(k, n);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!constraints[i].cone.is_closed(multiplier[i]))
@@ -72,7 +69,7 @@ namespace taut
         ends.insert(n);
       for (const std::size_t k : ends)
       {
-        join(*ends.begin(), k);
+        bodies.join(*ends.begin(), k);
         if (k < n && !null_spaces[k].vectors.empty())
         {
           // A turning link holds its ends also across itself, like a pendulum.
@@ -83,7 +80,7 @@ namespace taut
     }
     std::vector<char> result(n);
     for (std::size_t k = 0; k < n; ++k)
-      result[k] = group[k] != group[n] || opposed[k].size() < null_spaces[k].vectors.size();
+      result[k] = !bodies.are_joined(k, n) || opposed[k].size() < null_spaces[k].vectors.size();
     return result;
   }
 } // namespace taut

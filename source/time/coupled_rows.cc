@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupled_rows.h"
 
+#include <taut/base/groups.h>
+
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <utility>
 
 namespace taut
 {
@@ -44,24 +44,11 @@ namespace taut
 
   std::vector<std::vector<std::size_t>> coupled_rows(const std::vector<std::vector<double>> &G)
   {
-    std::vector<std::size_t> root(G.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::size_t i)
-    {
-      while (root[i] != i)
-        i = root[i] = root[root[i]];
-      return i;
-    };
+    Groups groups(G.size());
     for (std::size_t a = 0; a < G.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         if (G[a][b] > 0.)
-          root[find(a)] = find(b);
-    std::vector<std::vector<std::size_t>> of_root(G.size()), result;
-    for (std::size_t a = 0; a < G.size(); ++a)
-      of_root[find(a)].push_back(a);
-    for (std::vector<std::size_t> &group : of_root)
-      if (!group.empty())
-        result.push_back(std::move(group));
-    return result;
+          groups.join(a, b);
+    return groups.members();
   }
 } // namespace taut

@@ -2,8 +2,8 @@
 // A library for LD_PRELOAD that runs a program again and again, each time with one fault: it takes
 // the place of main(), and for each line "<fault> <n> <folder>" of the standard input forks a
 // process that runs the program in that folder until its n-th allocation or its n-th operation on a
-// file of that folder fails. Counting begins with the program's own main(), after all libraries,
-// libtaut_run too, have been initialised. Outputs go to <folder>.out and <folder>.err, the
+// file of that folder fails. Counting begins with the program's own main(), after all libraries
+// have been initialised. Outputs go to <folder>.out and <folder>.err, the
 // operations on files to <folder>.log; the answer to a line is "<status of waitpid> <calls that
 // were counted> <calls that failed>".
 //
@@ -115,9 +115,6 @@ namespace
 
   int serve(int argc, char **argv, char **environment)
   {
-    // What the program loads later; its children then have it.
-    if (dlopen("libtaut_run.so", RTLD_LAZY | RTLD_GLOBAL) == nullptr)
-      return 99;
     numbers = static_cast<Numbers *>(
         mmap(nullptr, sizeof(Numbers), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
     char text[4096];

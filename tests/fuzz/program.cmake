@@ -43,14 +43,6 @@ if(NOT out MATCHES "^taut [0-9]+\\.[0-9]+")
   message(SEND_ERROR "taut --version says: ${out}")
 endif()
 
-# What the command line alone decides does not wait until deal.II is loaded.
-foreach(option --help --version --what)
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=libs ${PROGRAM} ${option} OUTPUT_QUIET ERROR_VARIABLE loaded)
-  if(NOT loaded MATCHES "init: [^\n]*libboost_program_options" OR loaded MATCHES "init: [^\n]*lib(taut_run|deal)")
-    message(SEND_ERROR "taut ${option} loads deal.II, or no library:\n${loaded}")
-  endif()
-endforeach()
-
 refuse("cannot read 'nowhere.prm'" nowhere.prm)
 refuse("it is a folder" .)
 refuse("see 'taut --help'" ${scene} --overwrit=3 --what)
