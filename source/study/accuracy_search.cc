@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <functional>
 #include <ostream>
 
 namespace taut
@@ -180,6 +181,10 @@ namespace taut
       setting.message = trial.message;
       setting.seconds = {trial.run.seconds};
       setting.seconds_with_output = trial.wall_seconds;
+      for (const auto &[other, coarser] : runs.all())
+        if (coarser.message.empty() &&
+            std::equal(other.begin(), other.end(), levels.begin(), std::less_equal<int>()))
+          setting.coarser_seconds = std::max(setting.coarser_seconds, coarser.run.seconds);
       setting.certificate = trial.run.certificate;
       setting.n_steps = trial.run.n_steps;
       for (std::size_t i = 0; i < trial.run.quantities.size(); ++i)

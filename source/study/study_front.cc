@@ -6,9 +6,30 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// The bound of a coarser setting is never less, so the coarsest is that of the largest bound.
+    template <typename Test>
+    const StudySetting *least_cost(const std::vector<StudySetting> &settings, const Test &suits)
+    {
+      const StudySetting *best = nullptr;
+      for (const StudySetting &setting : settings)
+        if (setting.message.empty() && suits(setting) &&
+            (!best || setting.cost() < best->cost() ||
+             (setting.cost() == best->cost() && setting.bound > best->bound)))
+          best = &setting;
+      return best;
+    }
+  } // namespace
+
   double StudySetting::least_seconds() const
   {
     return *std::min_element(seconds.begin(), seconds.end());
+  }
+
+  double StudySetting::cost() const
+  {
+    return std::max(least_seconds(), coarser_seconds);
   }
 
   double StudySetting::median_seconds() const
@@ -51,10 +72,7 @@ namespace taut
         sorted.push_back(&setting);
     std::sort(sorted.begin(), sorted.end(),
               [](const StudySetting *a, const StudySetting *b)
-              {
-                const double x = a->least_seconds(), y = b->least_seconds();
-                return x != y ? x < y : a->bound < b->bound;
-              });
+              { return a->cost() != b->cost() ? a->cost() < b->cost() : a->bound < b->bound; });
     double least = std::numeric_limits<double>::infinity();
     for (StudySetting *setting : sorted)
     {
@@ -65,24 +83,16 @@ namespace taut
 
   const StudySetting *cheapest(const std::vector<StudySetting> &settings, const double accuracy)
   {
-    const StudySetting *best = nullptr;
-    for (const StudySetting &setting : settings)
-      if (setting.message.empty() && setting.bound + setting.reference_error <= accuracy &&
-          (!best || setting.least_seconds() < best->least_seconds()))
-        best = &setting;
-    return best;
+    return least_cost(settings, [&](const StudySetting &setting)
+                      { return setting.bound + setting.reference_error <= accuracy; });
   }
 
   const StudySetting *cheapest(const StudyResult &result, const std::size_t quantity,
                                const double accuracy)
   {
     const QuantityReference &reference = result.references[quantity];
-    const StudySetting *best = nullptr;
-    for (const StudySetting &setting : result.settings)
-      if (setting.message.empty() &&
-          setting.bounds[quantity] + reference.error / reference.scale <= accuracy &&
-          (!best || setting.least_seconds() < best->least_seconds()))
-        best = &setting;
-    return best;
+    return least_cost(
+        result.settings, [&](const StudySetting &setting)
+        { return setting.bounds[quantity] + reference.error / reference.scale <= accuracy; });
   }
 } // namespace taut

@@ -291,6 +291,7 @@ namespace taut
         entry["error"] = setting.bound;
         entry["error of the reference"] = setting.reference_error;
         entry["seconds"] = setting.least_seconds();
+        entry["cost"] = setting.cost();
         entry["x real time"] = result.end_time / setting.least_seconds();
       }
       root["settings"].push_back(entry);

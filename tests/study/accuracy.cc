@@ -83,6 +83,13 @@ TEST_F(AccuracyTest, finds_step_and_mesh_of_a_bar_on_a_wall)
   expect_bounds(result, 1, 200.);
   expect_bounds(result, 2, 2. / 3.);
   EXPECT_LE(std::fabs(best.quantities[1] / 200. - 1.), .01);
+  for (const taut::StudySetting &coarse : result.settings)
+    for (const taut::StudySetting &fine : result.settings)
+      if (std::stod(fine.values[0]) <= std::stod(coarse.values[0]) &&
+          std::stod(fine.values[1]) <= std::stod(coarse.values[1]))
+      {
+        EXPECT_GE(fine.cost(), coarse.seconds[0]) << "a run that was disturbed decides";
+      }
   ASSERT_EQ(result.parameter_lists.size(), 2u);
   EXPECT_EQ(result.parameter_lists[1].entries, Texts{"Network/Wire bar/Element size"});
   EXPECT_TRUE(has(log.str(), "step = " + best.values[0] + ", mesh = " + best.values[1]))

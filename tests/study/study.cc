@@ -258,6 +258,9 @@ TEST(Front, holds_what_nothing_beats)
   EXPECT_EQ(taut::cheapest(settings, .001), nullptr);
   settings[2].reference_error = .045;
   EXPECT_EQ(taut::cheapest(settings, .05), &settings[3]) << "the reference's error counts";
+  settings[1].coarser_seconds = 1.;
+  settings[1].seconds = {.5};
+  EXPECT_EQ(taut::cheapest(settings, .2), &settings[1]) << "of one cost, the coarsest";
 }
 
 // Cancellation at (4, 4), and a scheme that fails at the finest step: by hand.

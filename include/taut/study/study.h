@@ -26,11 +26,16 @@ namespace taut
     double reference_error = 0.;    ///< relative, the largest of all references
     std::vector<double> seconds;    ///< of the loop over the steps without output, of each run
     double seconds_with_output = 0.;
+    /// The most of a coarser setting, where each runs once and one of them may be disturbed [s].
+    double coarser_seconds = 0.;
     double certificate = 0.; ///< largest residual of any step [1]
     long n_steps = 0;
     bool is_on_front = false; ///< no other setting is both cheaper and surely more accurate
 
     double least_seconds() const;
+
+    /// What a choice compares: the least seconds, but no less than coarser_seconds.
+    double cost() const;
     double median_seconds() const;
   };
 
@@ -99,11 +104,11 @@ namespace taut
   void find_bounds(const std::vector<ParameterList> &parameter_lists,
                    std::vector<StudySetting> &settings);
 
-  /// Sets StudySetting::is_on_front, by least seconds and bound.
+  /// Sets StudySetting::is_on_front, by cost and bound.
   void find_front(std::vector<StudySetting> &settings);
 
-  /// The cheapest setting for which the sum of its bound and of the error of the reference is at
-  /// most @p accuracy, or null.
+  /// The setting of least cost, of several with the same the coarsest, for which the sum of its
+  /// bound and of the error of the reference is at most @p accuracy, or null.
   const StudySetting *cheapest(const std::vector<StudySetting> &settings, double accuracy);
 
   /// The cheapest setting for one quantity alone.
