@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/memory.h"
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
 
 #include <algorithm>
 #include <cmath>

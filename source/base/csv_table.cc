@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/csv_table.h>
-#include <taut/base/data_files.h>
+#include "base/csv_table.h"
+#include "base/data_files.h"
+#include "base/nearest_name.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/text.h>
 
 #include <boost/tokenizer.hpp>
 

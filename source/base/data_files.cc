@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
+#include "base/text.h"
+#include "base/write_file.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/base/write_file.h>
 
 #include <boost/crc.hpp>
 

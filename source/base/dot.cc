@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
-#include <taut/base/instruction_set.h>
+#include "base/dot.h"
+#include "base/instruction_set.h"
 
 #include <array>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/interruption.h>
+#include "base/interruption.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/memory.h>
-#include <taut/base/memory_guard.h>
+#include "base/memory.h"
+#include "base/memory_guard.h"
 
 #include <deal.II/base/exceptions.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/newton_search.h>
+#include "base/newton_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/rank_abort.h>
+#include "base/rank_abort.h"
 
 #include <chrono>
 #include <thread>

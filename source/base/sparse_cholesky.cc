@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/instruction_set.h>
+#include "base/instruction_set.h"
 #include <taut/base/sparse_cholesky.h>
 
 #include <cholmod.h>

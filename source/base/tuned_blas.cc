@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/tuned_blas.h>
+#include "base/tuned_blas.h"
 
 #include <dlfcn.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/write_file.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
 #include <taut/base/growing_file.h>
-#include <taut/base/text.h>
-#include <taut/base/write_file.h>
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "end_frames.h"
+#include "cable/end_frames.h"
 
-#include <taut/base/about_entry.h>
+#include "base/about_entry.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 
 #include <algorithm>

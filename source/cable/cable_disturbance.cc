@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later What makes straight pieces of a cable give way.
-#include "end_frames.h"
+#include "cable/end_frames.h"
 
 #include <taut/cable/cable.h>
 

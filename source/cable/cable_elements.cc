@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "element_vectors.h"
+#include "cable/element_vectors.h"
 
 #include <taut/cable/cable_elements.h>
 

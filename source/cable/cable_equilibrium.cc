@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cable_equilibrium.h"
+#include "cable/cable_equilibrium.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef taut_cable_equilibrium_h
 #define taut_cable_equilibrium_h
 
-#include <taut/base/newton_search.h>
+#include "base/newton_search.h"
 #include <taut/cable/cable_elements.h>
 #include <taut/substructure/local_solver.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Energies and forces of cables, several elements at a
 // time. Where integration points are at the ends of elements (ANCF), r' is a DoF of the node, and
 // both elements have the same value: a node counts once.
-#include "element_vectors.h"
+#include "cable/element_vectors.h"
 
-#include <taut/base/instruction_set.h>
+#include "base/instruction_set.h"
 #include <taut/cable/cable_elements.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "element_vectors.h"
+#include "cable/element_vectors.h"
 
-#include <taut/base/instruction_set.h>
+#include "base/instruction_set.h"
 #include <taut/cable/cable_elements.h>
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
+#include "base/text.h"
+#include "substructure/line_fields.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
-#include <taut/substructure/line_fields.h>
 
 #include <algorithm>
 #include <cmath>

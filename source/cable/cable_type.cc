@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/about_entry.h>
+#include "base/about_entry.h"
+#include "base/text.h"
+#include "cable/find_length.h"
+#include "scene/places_by_x.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
-#include <taut/cable/find_length.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
-#include <taut/scene/places_by_x.h>
 
 #include <boost/math/tools/roots.hpp>
 

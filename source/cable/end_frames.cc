@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "end_frames.h"
+#include "cable/end_frames.h"
 
 #include <taut/base/coordinates.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "parabola.h"
+#include "cable/parabola.h"
 
+#include "base/text.h"
+#include "cable/find_length.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/cable/find_length.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cable_equilibrium.h"
-#include "parabola.h"
+#include "cable/cable_equilibrium.h"
+#include "cable/parabola.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/find_shape.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 
 #include <cmath>
 #include <string>

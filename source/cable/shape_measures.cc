@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "parabola.h"
+#include "cable/parabola.h"
 
 #include <taut/cable/find_shape.h>
 

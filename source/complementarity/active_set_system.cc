@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/active_set_system.h>
+#include "complementarity/active_set_system.h"
 
 #include <algorithm>
 #include <cmath>

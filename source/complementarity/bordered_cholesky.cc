@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/instruction_set.h>
-#include <taut/complementarity/bordered_cholesky.h>
+#include "complementarity/bordered_cholesky.h"
+#include "base/instruction_set.h"
 
 #include <algorithm>
 #include <cmath>

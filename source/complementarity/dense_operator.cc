@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/instruction_set.h>
-#include <taut/complementarity/dense_operator.h>
+#include "complementarity/dense_operator.h"
+#include "base/instruction_set.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/energy_descent.h>
+#include "complementarity/energy_descent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/active_set_system.h>
-#include <taut/complementarity/energy_ordered.h>
+#include "complementarity/energy_ordered.h"
+#include "complementarity/active_set_system.h"
 
 #include <algorithm>
 #include <cmath>

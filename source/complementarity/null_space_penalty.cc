@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/null_space_penalty.h>
+#include "complementarity/null_space_penalty.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/operator.h>
+#include "complementarity/operator.h"
 
 namespace taut
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // With CHOLMOD, whose analysis is kept and whose numeric factor is made anew for each changed set,
 // the contact problem of a line with 260 rows takes 1.9 times as many instructions.
-#include <taut/complementarity/patterned_cholesky.h>
+#include "complementarity/patterned_cholesky.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/problem.h>
+#include "complementarity/problem.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/repeated_rows.h>
+#include "complementarity/repeated_rows.h"
 
 #include <algorithm>
 #include <cmath>

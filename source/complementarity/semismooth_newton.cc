@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/semismooth_newton.h>
+#include "complementarity/semismooth_newton.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "complementarity/solver.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/complementarity/solver.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/sparse_operator.h>
+#include "complementarity/sparse_operator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/sparse_triangle.h>
+#include "complementarity/sparse_triangle.h"
 
 #include <algorithm>
 #include <utility>

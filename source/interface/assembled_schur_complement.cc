@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "assembled_schur_complement.h"
+#include "interface/assembled_schur_complement.h"
 
-#include <taut/base/gather_entries.h>
-#include <taut/base/instruction_set.h>
+#include "base/gather_entries.h"
+#include "base/instruction_set.h"
 
 #include <algorithm>
 

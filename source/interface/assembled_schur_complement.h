@@ -2,9 +2,9 @@
 #ifndef taut_assembled_schur_complement_h
 #define taut_assembled_schur_complement_h
 
-#include <taut/complementarity/dense_operator.h>
-#include <taut/complementarity/sparse_operator.h>
-#include <taut/interface/schur_complement.h>
+#include "complementarity/dense_operator.h"
+#include "complementarity/sparse_operator.h"
+#include "interface/schur_complement.h"
 
 #include <vector>
 

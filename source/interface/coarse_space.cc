@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coarse_space.h"
+#include "interface/coarse_space.h"
 
-#include <taut/base/gather_entries.h>
+#include "base/gather_entries.h"
 
 #include <map>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "conjugate_gradients.h"
+#include "interface/conjugate_gradients.h"
 
 #include <BelosEpetraAdapter.hpp>
 #include <BelosPseudoBlockCGSolMgr.hpp>

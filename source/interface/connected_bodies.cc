@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/gather_entries.h>
-#include <taut/base/groups.h>
+#include "base/gather_entries.h"
+#include "base/groups.h"
 #include <taut/interface/connected_bodies.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "constraint_flexibilities.h"
+#include "interface/constraint_flexibilities.h"
 
-#include <taut/base/groups.h>
+#include "base/groups.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef taut_constraint_flexibilities_h
 #define taut_constraint_flexibilities_h
 
-#include <taut/interface/body_constraints.h>
+#include <taut/interface/constraint_operator.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <set>

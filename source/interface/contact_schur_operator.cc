@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "natural_coarse_problem.h"
+#include "interface/natural_coarse_problem.h"
 
 #include <taut/interface/contact_schur_operator.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "interface_preconditioner.h"
+#include "interface/interface_preconditioner.h"
 
 #include <taut/base/exceptions.h>
 

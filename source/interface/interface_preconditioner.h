@@ -2,7 +2,7 @@
 #ifndef taut_interface_preconditioner_h
 #define taut_interface_preconditioner_h
 
-#include "interface_stiffness.h"
+#include "interface/interface_stiffness.h"
 
 #include <string>
 #include <vector>

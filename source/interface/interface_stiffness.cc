@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "interface_stiffness.h"
+#include "interface/interface_stiffness.h"
 
-#include <taut/base/gather_entries.h>
+#include "base/gather_entries.h"
 
 #include <algorithm>
 #include <limits>

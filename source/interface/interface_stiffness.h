@@ -3,7 +3,7 @@
 #define taut_interface_stiffness_h
 
 #include <taut/base/sparse_cholesky.h>
-#include <taut/interface/body_constraints.h>
+#include <taut/interface/constraint_operator.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <memory>

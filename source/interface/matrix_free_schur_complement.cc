@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "matrix_free_schur_complement.h"
+#include "interface/matrix_free_schur_complement.h"
 
-#include "conjugate_gradients.h"
+#include "interface/conjugate_gradients.h"
 
 #include <taut/base/exceptions.h>
 

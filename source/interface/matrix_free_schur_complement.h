@@ -2,13 +2,13 @@
 #ifndef taut_matrix_free_schur_complement_h
 #define taut_matrix_free_schur_complement_h
 
-#include "coarse_space.h"
-#include "constraint_flexibilities.h"
-#include "interface_preconditioner.h"
-#include "natural_coarse_problem.h"
+#include "interface/coarse_space.h"
+#include "interface/constraint_flexibilities.h"
+#include "interface/interface_preconditioner.h"
+#include "interface/natural_coarse_problem.h"
 
+#include "interface/schur_complement.h"
 #include <taut/interface/contact_schur_operator.h>
-#include <taut/interface/schur_complement.h>
 
 #include <memory>
 #include <vector>

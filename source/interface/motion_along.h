@@ -2,7 +2,7 @@
 #ifndef taut_motion_along_h
 #define taut_motion_along_h
 
-#include <taut/interface/turning_direction.h>
+#include <taut/interface/geometry.h>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "assembled_schur_complement.h"
-#include "matrix_free_schur_complement.h"
+#include "interface/assembled_schur_complement.h"
+#include "interface/matrix_free_schur_complement.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/substructure/constrained_body.h>
+#include <taut/substructure/body_traits.h>
 
 namespace taut
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "interface/check_constraint.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/interface/check_constraint.h>
 #include <taut/interface/system.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The rows of constraints that turn: places of their ends, directions, and springs across them.
-#include "motion_along.h"
+#include "interface/motion_along.h"
 
 #include <taut/interface/constraints.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "constrained_solver.h"
+#include "mechanism/constrained_solver.h"
 
 #include <taut/base/exceptions.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mechanism/mechanism.h"
+#include "base/groups.h"
+#include "base/text.h"
+#include "scene/travel.h"
+#include "substructure/motion_rate.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/groups.h>
-#include <taut/base/text.h>
-#include <taut/mechanism/mechanism.h>
-#include <taut/scene/travel.h>
-#include <taut/substructure/motion_rate.h>
 
 #include <deal.II/lac/lapack_templates.h>
 

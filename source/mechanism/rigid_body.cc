@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "constrained_solver.h"
+#include "mechanism/constrained_solver.h"
 
+#include "substructure/line_fields.h"
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/rigid_body.h>
-#include <taut/substructure/line_fields.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/rigid_body.h>
 #include <taut/scene/body_type.h>
-#include <taut/scene/entries.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "entry_path.h"
+#include "model/entry_path.h"
 
-#include <taut/base/about_entry.h>
+#include "base/about_entry.h"
+#include "scene/entries.h"
 #include <taut/model/scene_bodies.h>
-#include <taut/scene/entries.h>
 
 #include <algorithm>
 #include <map>

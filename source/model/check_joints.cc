@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "entry_path.h"
+#include "model/entry_path.h"
 
+#include "base/text.h"
+#include "model/check_joints.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
-#include <taut/model/check_joints.h>
 #include <taut/scene/contact_surface.h>
-#include <taut/scene/entries.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "courant_numbers.h"
+#include "model/courant_numbers.h"
 
-#include <taut/model/contact_mass.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/time/contact_resolution.h>
+#include "model/contact_mass.h"
+#include "model/scene_constraints.h"
+#include "time/contact_resolution.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "courant_numbers.h"
+#include "model/courant_numbers.h"
 
 #include <algorithm>
 #include <cmath>

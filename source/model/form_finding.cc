@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "found_droppers.h"
+#include "model/found_droppers.h"
 
+#include "model/form_finding.h"
+#include "model/scene_part.h"
+#include "scene/scene_values.h"
 #include <taut/base/archive.h>
-#include <taut/model/form_finding.h>
-#include <taut/model/scene_part.h>
-#include <taut/scene/scene_values.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "found_droppers.h"
+#include "model/found_droppers.h"
 
+#include "base/text.h"
+#include "model/scene_constraints.h"
+#include "model/scene_part.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/model/scene_part.h>
-#include <taut/scene/entries.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>

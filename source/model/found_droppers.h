@@ -2,9 +2,9 @@
 #ifndef taut_found_droppers_h
 #define taut_found_droppers_h
 
-#include <taut/model/shared_parts.h>
+#include "model/shared_parts.h"
 #include <taut/scene/scene.h>
-#include <taut/time/solver_parameters.h>
+#include <taut/time/step_parameters.h>
 
 #include <cmath>
 #include <cstddef>

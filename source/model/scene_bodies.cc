@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "mechanism/mechanism.h"
+#include "model/scene_part.h"
+#include "model/shared_parts.h"
+#include "scene/entries.h"
+#include "scene/scene_values.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/mechanism/mechanism.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/model/scene_part.h>
-#include <taut/model/shared_parts.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/scene_values.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/wire/wire_component.h>
 
 #include <algorithm>

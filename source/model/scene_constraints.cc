@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "model/scene_constraints.h"
+#include "base/text.h"
+#include "model/check_joints.h"
+#include "model/surface_constraints.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
-#include <taut/model/check_joints.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/model/surface_constraints.h>
-#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/groups.h>
-#include <taut/model/scene_part.h>
+#include "model/scene_part.h"
+#include "base/groups.h"
 
 #include <utility>
 

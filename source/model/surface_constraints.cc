@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/about_entry.h>
-#include <taut/model/surface_constraints.h>
+#include "model/surface_constraints.h"
+#include "base/about_entry.h"
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/accuracy_report.h>
+#include "output/accuracy_report.h"
 
 #include <ostream>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/contact_tables.h"
 #include <taut/base/archive.h>
-#include <taut/output/contact_tables.h>
 
 #include <algorithm>
 #include <cmath>

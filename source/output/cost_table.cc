@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/cost_table.h"
 #include <taut/base/archive.h>
-#include <taut/output/cost_table.h>
 
 namespace taut
 {

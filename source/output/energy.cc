@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "total_displacement.h"
+#include "output/total_displacement.h"
 
+#include "base/dot.h"
 #include <taut/base/archive.h>
-#include <taut/base/dot.h>
 #include <taut/output/energy.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/text.h>
-#include <taut/output/facet_limits.h>
+#include "output/facet_limits.h"
+#include "base/text.h"
 #include <taut/solid/contact_constraints.h>
 
 #include <algorithm>

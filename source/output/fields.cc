@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "scene/entries.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
-#include <taut/scene/entries.h>
 
 #include <cctype>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
 #include <taut/base/archive.h>
-#include <taut/base/text.h>
 #include <taut/output/impact_watch.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "distance_to_range.h"
+#include "output/distance_to_range.h"
 
-#include <taut/output/impulse_record.h>
+#include "output/impulse_record.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/jump_watch.h"
+#include "base/text.h"
+#include "substructure/motion_rate.h"
 #include <taut/base/archive.h>
-#include <taut/base/text.h>
-#include <taut/output/jump_watch.h>
-#include <taut/substructure/motion_rate.h>
 
 #include <algorithm>
 #include <cmath>

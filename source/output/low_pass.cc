@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/low_pass.h>
+#include "output/low_pass.h"
 
 #include <algorithm>
 #include <cmath>

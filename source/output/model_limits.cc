@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/model_limits.h"
+#include "base/instruction_set.h"
+#include "base/text.h"
+#include "scene/travel.h"
+#include "scene/wave_speed.h"
 #include <taut/base/archive.h>
-#include <taut/base/instruction_set.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
-#include <taut/output/model_limits.h>
-#include <taut/scene/travel.h>
-#include <taut/scene/wave_speed.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "distance_to_range.h"
+#include "output/distance_to_range.h"
 
+#include "base/dot.h"
+#include "output/motion_record.h"
+#include "time/matrix_norms.h"
 #include <taut/base/archive.h>
-#include <taut/base/dot.h>
-#include <taut/output/motion_record.h>
-#include <taut/substructure/constrained_body.h>
-#include <taut/time/matrix_norms.h>
+#include <taut/substructure/body_traits.h>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>

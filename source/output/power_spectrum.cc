@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/power_spectrum.h>
+#include "output/power_spectrum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/rainflow.h>
+#include "output/rainflow.h"
 
 #include <cmath>
 #include <cstddef>

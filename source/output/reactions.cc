@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/reactions.h>
+#include "output/reactions.h"
 
 #include <map>
 

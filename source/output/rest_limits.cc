@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/text.h>
-#include <taut/output/linear_forms.h>
-#include <taut/output/rest_limits.h>
+#include "output/rest_limits.h"
+#include "base/text.h"
+#include "output/linear_forms.h"
 #include <taut/output/spans.h>
 
 #include <algorithm>

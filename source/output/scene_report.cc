@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/text.h>
+#include "output/scene_report.h"
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/travel.h"
 #include <taut/cable/cable.h>
-#include <taut/output/scene_report.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>

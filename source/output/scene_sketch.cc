@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/scene_sketch.h"
+#include "base/memory.h"
+#include "base/write_file.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
-#include <taut/base/write_file.h>
-#include <taut/output/scene_sketch.h>
 #include <taut/scene/contact_surface.h>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/section_forces.h"
+#include "base/nearest_name.h"
+#include "base/patterns.h"
+#include "base/text.h"
+#include "scene/entries.h"
 #include <taut/base/archive.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/patterns.h>
-#include <taut/base/text.h>
 #include <taut/cable/cable.h>
-#include <taut/output/section_forces.h>
-#include <taut/scene/entries.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>

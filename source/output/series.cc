@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/reactions.h"
 #include <taut/base/archive.h>
-#include <taut/output/reactions.h>
 #include <taut/output/series.h>
 
 #include <algorithm>

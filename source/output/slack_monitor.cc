@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "total_displacement.h"
+#include "output/total_displacement.h"
 
 #include <taut/base/archive.h>
 #include <taut/output/slack_monitor.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 
 #include <algorithm>
 #include <ostream>

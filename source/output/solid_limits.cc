@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/solid_limits.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/output/solid_limits.h>
 #include <taut/solid/contact_constraints.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "output/low_pass.h"
 #include <taut/base/archive.h>
-#include <taut/base/text.h>
-#include <taut/output/low_pass.h>
 #include <taut/output/statistics.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // statistics.json: each quantity is an object with value and unit. If a range is expected, it has
 // also the range in this unit and whether the value is inside. Keys are identifiers, except for
 // names of items, which are in the order of the scene.
+#include "base/write_file.h"
 #include <taut/base/version.h>
-#include <taut/base/write_file.h>
 #include <taut/output/statistics.h>
 #include <taut/output/table_file.h>
 

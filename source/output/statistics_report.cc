@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/text.h>
+#include "base/text.h"
 #include <taut/output/statistics.h>
 
 #include <algorithm>

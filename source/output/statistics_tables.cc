@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tables beside statistics.json, of the force in the window.
-#include <taut/base/write_file.h>
-#include <taut/output/contact_figures.h>
-#include <taut/output/power_spectrum.h>
-#include <taut/output/rainflow.h>
+#include "base/write_file.h"
+#include "output/power_spectrum.h"
+#include "output/rainflow.h"
+#include <taut/output/contact_quantities.h>
 #include <taut/output/statistics.h>
 #include <taut/output/table_file.h>
 

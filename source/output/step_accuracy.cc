@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/step_accuracy.h"
+#include "base/text.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/output/step_accuracy.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/write_file.h>
+#include "base/write_file.h"
 #include <taut/output/table_file.h>
 #include <taut/output/vtu_file.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cell_parts.h"
+#include "partition/cell_parts.h"
 
 #include <algorithm>
 #include <numeric>

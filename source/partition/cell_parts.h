@@ -2,7 +2,7 @@
 #ifndef taut_cell_parts_h
 #define taut_cell_parts_h
 
-#include <taut/scene/divisible_body.h>
+#include <taut/scene/partition.h>
 
 #include <map>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cell_parts.h"
+#include "partition/cell_parts.h"
 
+#include "partition/make_partition.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/partition/make_partition.h>
-#include <taut/scene/entries.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "command_line.h"
+#include "program/command_line.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "command_line.h"
+#include "program/command_line.h"
 
+#include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/started_in_parallel.h>
 
 #include <unistd.h>
 

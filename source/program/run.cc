@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "command_line.h"
+#include "program/command_line.h"
 
+#include "base/interruption.h"
+#include "base/memory.h"
+#include "base/rank_abort.h"
+#include "base/write_file.h"
+#include "output/scene_report.h"
+#include "output/scene_sketch.h"
+#include "simulation/network_file.h"
+#include "study/accuracy_search.h"
+#include "study/elasticity.h"
+#include "study/study.h"
+#include "study/sweep.h"
+#include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/interruption.h>
-#include <taut/base/memory.h>
-#include <taut/base/rank_abort.h>
-#include <taut/base/started_in_parallel.h>
-#include <taut/base/write_file.h>
 #include <taut/output/progress.h>
-#include <taut/output/scene_report.h>
-#include <taut/output/scene_sketch.h>
-#include <taut/simulation/network_file.h>
 #include <taut/simulation/simulation.h>
-#include <taut/study/accuracy_search.h>
-#include <taut/study/elasticity.h>
-#include <taut/study/study.h>
-#include <taut/study/sweep.h>
 
 #include <deal.II/base/multithread_info.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/nearest_name.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
 #include <taut/scene/named_items.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "built_lengths.h"
+#include "scene/built_lengths.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef taut_built_lengths_h
 #define taut_built_lengths_h
 
-#include "line_geometry.h"
+#include "scene/line_geometry.h"
 
-#include <taut/base/csv_table.h>
+#include "base/csv_table.h"
 
 namespace taut
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "catenary.h"
+#include "scene/catenary.h"
 
+#include "base/patterns.h"
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/patterns.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
 #include <taut/scene/named_items.h>
-#include <taut/scene/travel.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -2,12 +2,12 @@
 #ifndef taut_catenary_h
 #define taut_catenary_h
 
-#include "catenary_items.h"
-#include "line_geometry.h"
-#include "tension_length.h"
+#include "scene/catenary_items.h"
+#include "scene/line_geometry.h"
+#include "scene/tension_length.h"
 
+#include "scene/travel.h"
 #include <taut/scene/scene_generator.h>
-#include <taut/scene/travel.h>
 
 #include <memory>
 #include <string>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Checks of an overhead line and its pantographs beyond
 // those of any scene, with messages about their entries.
-#include "catenary.h"
+#include "scene/catenary.h"
 
+#include "base/nearest_name.h"
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "catenary_items.h"
+#include "scene/catenary_items.h"
 
+#include "base/patterns.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/patterns.h>
-#include <taut/base/text.h>
 
 #include <deal.II/base/parameter_handler.h>
 

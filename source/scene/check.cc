@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "check_parts.h"
+#include "scene/check_parts.h"
 
+#include "scene/travel.h"
+#include "scene/wave_speed.h"
 #include <taut/scene/scene.h>
-#include <taut/scene/travel.h>
-#include <taut/scene/wave_speed.h>
 
 #include <algorithm>
 #include <cmath>

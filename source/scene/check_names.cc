@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "check_parts.h"
+#include "scene/check_parts.h"
 
 #include <algorithm>
 #include <map>

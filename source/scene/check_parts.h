@@ -2,8 +2,8 @@
 #ifndef taut_check_parts_h
 #define taut_check_parts_h
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/scene/scene.h>
 
 #include <string>

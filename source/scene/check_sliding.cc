@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contacts that slide stay on their wires.
-#include "check_parts.h"
+#include "scene/check_parts.h"
 
-#include <taut/scene/travel.h>
+#include "scene/travel.h"
 
 #include <algorithm>
 #include <cmath>

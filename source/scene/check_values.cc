@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Checks of values that a parameter file cannot have,
 // but a generator of a plugin or a program can.
-#include "check_parts.h"
+#include "scene/check_parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "compiled_formula.h"
+#include "scene/compiled_formula.h"
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>

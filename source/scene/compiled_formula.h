@@ -2,7 +2,7 @@
 #ifndef taut_compiled_formula_h
 #define taut_compiled_formula_h
 
-#include "tabulated_function.h"
+#include "scene/tabulated_function.h"
 
 #include <array>
 #include <memory>

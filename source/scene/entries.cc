@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "scene/entries.h"
+#include "base/nearest_name.h"
+#include "base/text.h"
+#include "scene/places_by_x.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/places_by_x.h>
 
 #include <cmath>
 #include <limits>

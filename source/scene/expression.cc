@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "compiled_formula.h"
-#include "table_calls.h"
+#include "scene/compiled_formula.h"
+#include "scene/table_calls.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/scene/expression.h>
 
 #include <algorithm>

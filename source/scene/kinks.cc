@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kinks.h"
-#include "check_parts.h"
+#include "scene/kinks.h"
+#include "scene/check_parts.h"
 
-#include <taut/base/text.h>
+#include "base/text.h"
 
 #include <algorithm>
 #include <array>

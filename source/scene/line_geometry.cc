@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "line_geometry.h"
+#include "scene/line_geometry.h"
 
-#include <taut/base/csv_table.h>
-#include <taut/base/data_files.h>
+#include "base/csv_table.h"
+#include "base/data_files.h"
+#include "base/nearest_name.h"
+#include "base/patterns.h"
+#include "base/text.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/patterns.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
 
 #include <math.h> // isnan, which pchip.hpp of Boost 1.74 takes from the global namespace
 

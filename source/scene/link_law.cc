@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "network.h"
-#include "kinks.h"
+#include "scene/network.h"
+#include "scene/kinks.h"
 
+#include "base/nearest_name.h"
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/travel.h>
 
 #include <algorithm>
 

@@ -3,7 +3,6 @@
 #define taut_network_h
 
 #include <taut/scene/named_items.h>
-#include <taut/scene/probe_item.h>
 #include <taut/scene/scene_generator.h>
 
 #include <string>

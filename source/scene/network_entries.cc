@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "network.h"
-#include "written_items.h"
+#include "scene/network.h"
+#include "scene/written_items.h"
 
+#include "scene/network_entries.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/scene/network_entries.h>
-#include <taut/scene/travel.h>
 
 namespace taut
 {

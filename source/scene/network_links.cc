@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "check_parts.h"
-#include "network.h"
+#include "scene/check_parts.h"
+#include "scene/network.h"
 
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/travel.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/scene/contact_surface.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "network.h"
+#include "scene/network.h"
 
-#include <taut/base/patterns.h>
+#include "base/patterns.h"
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/scene/entries.h>
-#include <taut/scene/probe_item.h>
+#include "scene/entries.h"
+
+#include <taut/scene/named_items.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "scene/scene_values.h"
+#include "scene/travel.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/scene/scene_values.h>
-#include <taut/scene/travel.h>
 
 #include <type_traits>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/scene/places_by_x.h>
-#include <taut/scene/shared_places.h>
+#include "scene/shared_places.h"
+#include "scene/places_by_x.h"
 
 #include <algorithm>
 #include <cmath>

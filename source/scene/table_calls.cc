@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "table_calls.h"
+#include "scene/table_calls.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <algorithm>
 #include <regex>

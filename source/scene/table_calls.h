@@ -2,7 +2,7 @@
 #ifndef taut_table_calls_h
 #define taut_table_calls_h
 
-#include "tabulated_function.h"
+#include "scene/tabulated_function.h"
 
 #include <memory>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tabulated_function.h"
+#include "scene/tabulated_function.h"
 
-#include <taut/base/csv_table.h>
-#include <taut/base/data_files.h>
+#include "base/csv_table.h"
+#include "base/data_files.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <math.h> // isnan, which pchip.hpp of Boost 1.74 takes from the global namespace
 

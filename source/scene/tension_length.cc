@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tension_length.h"
+#include "scene/tension_length.h"
 
+#include "base/text.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
 
 #include <algorithm>
 #include <cmath>

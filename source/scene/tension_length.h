@@ -2,8 +2,8 @@
 #ifndef taut_tension_length_h
 #define taut_tension_length_h
 
-#include "catenary_items.h"
-#include "line_geometry.h"
+#include "scene/catenary_items.h"
+#include "scene/line_geometry.h"
 
 #include <taut/scene/scene.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Steady arms of a tension length.
-#include "tension_length.h"
-#include "written_items.h"
+#include "scene/tension_length.h"
+#include "scene/written_items.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/scene/body_type.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Droppers, stitch wires and mid-points of a tension
 // length, and its checks.
-#include "built_lengths.h"
-#include "tension_length.h"
+#include "scene/built_lengths.h"
+#include "scene/tension_length.h"
 
+#include "base/text.h"
+#include "scene/entries.h"
+#include "scene/shared_places.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/shared_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "scene/travel.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/scene/scene.h>
-#include <taut/scene/travel.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/text.h>
-#include <taut/scene/unheld_wires.h>
+#include "scene/unheld_wires.h"
+#include "base/text.h"
 
 #include <algorithm>
 

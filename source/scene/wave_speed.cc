@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "check_parts.h"
+#include "scene/check_parts.h"
 
-#include <taut/scene/travel.h>
-#include <taut/scene/wave_speed.h>
+#include "scene/travel.h"
+#include "scene/wave_speed.h"
 
 #include <cmath>
 

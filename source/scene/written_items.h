@@ -2,8 +2,8 @@
 #ifndef taut_written_items_h
 #define taut_written_items_h
 
+#include "scene/network_entries.h"
 #include <taut/base/coordinates.h>
-#include <taut/scene/network_entries.h>
 
 #include <cstddef>
 #include <set>

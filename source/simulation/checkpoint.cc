@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "checkpoint.h"
+#include "simulation/checkpoint.h"
 
+#include "base/write_file.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/write_file.h>
 
 #include <boost/crc.hpp>
 

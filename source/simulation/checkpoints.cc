@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "checkpoint.h"
+#include "simulation/checkpoint.h"
 
+#include "base/data_files.h"
+#include "base/instruction_set.h"
+#include "base/memory.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/instruction_set.h>
-#include <taut/base/memory.h>
 #include <taut/base/version.h>
 #include <taut/simulation/observed_run.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The entry Time/End: a time, or a place that the first sliding contact comes to.
-#include <taut/base/text.h>
-#include <taut/scene/travel.h>
+#include "base/text.h"
+#include "scene/travel.h"
 #include <taut/simulation/parameters.h>
 
 #include <algorithm>

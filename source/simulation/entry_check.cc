@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "entry_check.h"
-#include "file_text.h"
+#include "simulation/entry_check.h"
+#include "simulation/file_text.h"
 
+#include "base/memory.h"
+#include "base/memory_guard.h"
+#include "base/nearest_name.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
-#include <taut/base/memory_guard.h>
-#include <taut/base/nearest_name.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "file_text.h"
+#include "simulation/file_text.h"
 
+#include "base/nearest_name.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -2,7 +2,7 @@
 #ifndef taut_file_text_h
 #define taut_file_text_h
 
-#include <taut/base/text.h>
+#include "base/text.h"
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "folder_lock.h"
+#include "simulation/folder_lock.h"
 
 #include <taut/base/exceptions.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/groups.h>
-#include <taut/simulation/free_bodies.h>
+#include "simulation/free_bodies.h"
+#include "base/groups.h"
 
 #include <algorithm>
 #include <cmath>

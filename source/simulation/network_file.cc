@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The parameter file of a scene that is written out.
-#include "entry_check.h"
-#include "visit_entries.h"
+#include "simulation/entry_check.h"
+#include "simulation/visit_entries.h"
 
-#include <taut/base/text.h>
-#include <taut/base/write_file.h>
-#include <taut/scene/network_entries.h>
-#include <taut/scene/scene_values.h>
-#include <taut/simulation/network_file.h>
+#include "base/text.h"
+#include "base/write_file.h"
+#include "scene/network_entries.h"
+#include "scene/scene_values.h"
+#include "simulation/network_file.h"
 #include <taut/simulation/parameters.h>
 
 #include <deal.II/base/parameter_handler.h>

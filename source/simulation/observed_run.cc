@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "interface/schur_complement.h"
+#include "output/reactions.h"
 #include <taut/base/archive.h>
-#include <taut/interface/schur_complement.h>
+#include <taut/simulation/checkpoints.h>
 #include <taut/simulation/observed_run.h>
 
 #include <algorithm>
@@ -14,7 +16,7 @@ namespace taut
       : own_scene(std::make_unique<Scene>()),
         own_bodies(std::make_unique<SceneBodies>(stepper.stepped().bodies())),
         motion(stepper.stepped()), named(*own_scene), bodies(*own_bodies), folder(folder),
-        interval(interval), reactions(named, bodies)
+        interval(interval), reactions(std::make_unique<Reactions>(named, bodies))
   {
     for (const Structure::Body &body : bodies.all_bodies())
       own_scene->bodies.push_back({body.name, "", "", nullptr});
@@ -23,7 +25,7 @@ namespace taut
   ObservedRun::ObservedRun(Motion &motion, const Scene &scene, const SceneBodies &structure,
                            const std::string &folder, const double interval)
       : motion(motion), named(scene), bodies(structure), folder(folder), interval(interval),
-        reactions(scene, structure)
+        reactions(std::make_unique<Reactions>(scene, structure))
   {
     for (const Probe &probe : scene.probes)
     {
@@ -32,8 +34,10 @@ namespace taut
     }
     probe_rest.assign(probe_terms.size(), 0.);
     probe_values = probe_rest;
-    reactions.update_start(motion.reference(), motion.start().state, motion.links());
+    reactions->update_start(motion.reference(), motion.start().state, motion.links());
   }
+
+  ObservedRun::~ObservedRun() = default;
 
   void ObservedRun::add_probe(const std::string &name, const Displacement &form,
                               const bool rotational)
@@ -149,7 +153,7 @@ namespace taut
                       " observers and this run " + std::to_string(observers.size()) +
                       ": resume with the same program");
     update_probes(motion.state());
-    reactions.update(motion.reference(), motion.state(), motion.links(), motion.report());
+    reactions->update(motion.reference(), motion.state(), motion.links(), motion.report());
     const StepView step = view(motion.state());
     std::size_t i = 0;
     each(
@@ -169,7 +173,7 @@ namespace taut
             motion.report(),
             motion.measures(),
             probe_values,
-            reactions.forces(),
+            reactions->forces(),
             motion.costs().sums()};
   }
 
@@ -177,7 +181,7 @@ namespace taut
   {
     update_probes(state);
     if (motion.has_moved())
-      reactions.update(motion.reference(), state, motion.links(), motion.report());
+      reactions->update(motion.reference(), state, motion.links(), motion.report());
     const StepView step = view(state);
     each([&](Observer &observer) { observer.record(step); });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "file_text.h"
+#include "simulation/file_text.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/simulation/parameter_file.h>

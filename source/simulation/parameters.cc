@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "entry_check.h"
-#include "file_text.h"
-#include "visit_entries.h"
-
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
+#include "base/nearest_name.h"
+#include "scene/entries.h"
+#include "scene/shared_places.h"
+#include "scene/travel.h"
+#include "simulation/entry_check.h"
+#include "simulation/file_text.h"
+#include "simulation/stored_study.h"
+#include "simulation/visit_entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/scene/entries.h>
-#include <taut/scene/shared_places.h>
-#include <taut/scene/travel.h>
 #include <taut/simulation/parameters.h>
-#include <taut/simulation/stored_study.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Schemes and observers of a parameter file, also of plugins, each with its own entries.
-#include "file_text.h"
+#include "simulation/file_text.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/simulation/parameters.h>

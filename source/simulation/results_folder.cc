@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "results_folder.h"
-#include "checkpoint.h"
-#include "folder_lock.h"
+#include "simulation/results_folder.h"
+#include "simulation/checkpoint.h"
+#include "simulation/folder_lock.h"
 
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
+#include "base/memory.h"
+#include "base/write_file.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
 #include <taut/base/version.h>
-#include <taut/base/write_file.h>
 #include <taut/output/observer.h>
 
 #include <algorithm>

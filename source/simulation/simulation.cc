@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "folder_lock.h"
-#include "results_folder.h"
+#include "simulation/folder_lock.h"
+#include "simulation/results_folder.h"
 
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
+#include "base/interruption.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "model/check_joints.h"
+#include "model/contact_mass.h"
+#include "model/form_finding.h"
+#include "model/scene_constraints.h"
+#include "model/shared_parts.h"
+#include "output/accuracy_report.h"
+#include "output/contact_tables.h"
+#include "output/jump_watch.h"
+#include "output/model_limits.h"
+#include "output/scene_report.h"
+#include "partition/make_partition.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/interruption.h>
-#include <taut/base/memory.h>
-#include <taut/base/text.h>
-#include <taut/model/check_joints.h>
-#include <taut/model/contact_mass.h>
-#include <taut/model/form_finding.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/model/shared_parts.h>
-#include <taut/output/accuracy_report.h>
-#include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>
-#include <taut/output/jump_watch.h>
-#include <taut/output/model_limits.h>
-#include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/output/slack_monitor.h>
-#include <taut/partition/make_partition.h>
 #include <taut/simulation/simulation.h>
 
 #include <algorithm>

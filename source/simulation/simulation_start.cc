@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/instruction_set.h"
+#include "base/text.h"
+#include "model/check_joints.h"
+#include "model/form_finding.h"
+#include "model/scene_constraints.h"
+#include "output/rest_limits.h"
+#include "output/scene_report.h"
+#include "scene/unheld_wires.h"
+#include "simulation/free_bodies.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/instruction_set.h>
-#include <taut/base/text.h>
-#include <taut/model/check_joints.h>
-#include <taut/model/form_finding.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/output/line_constants.h>
-#include <taut/output/rest_limits.h>
-#include <taut/output/scene_report.h>
+#include <taut/output/spans.h>
 #include <taut/output/table_file.h>
-#include <taut/scene/unheld_wires.h>
-#include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>

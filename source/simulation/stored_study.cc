@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "simulation/stored_study.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/simulation/stored_study.h>
 
 #include <nlohmann/json.hpp>
 

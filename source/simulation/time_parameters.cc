@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/patterns.h>
+#include "base/patterns.h"
 #include <taut/simulation/parameters.h>
 
 #include <deal.II/base/parameter_handler.h>

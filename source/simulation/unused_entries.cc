@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Entries without effect because of another entry: a run reports them.
-#include "file_text.h"
+#include "simulation/file_text.h"
 
+#include "time/named_scheme.h"
 #include <taut/simulation/parameters.h>
-#include <taut/time/named_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "closest_point.h"
+#include "solid/closest_point.h"
 
 #include <algorithm>
 #include <cmath>

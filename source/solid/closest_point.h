@@ -2,7 +2,7 @@
 #ifndef taut_closest_point_h
 #define taut_closest_point_h
 
-#include "surface_geometry.h"
+#include "solid/surface_geometry.h"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid/divisible_solid.h"
 #include <taut/scene/body_type.h>
-#include <taut/solid/divisible_solid.h>
 
 namespace taut
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "boundary_mass.h"
+#include "solid/boundary_mass.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/solid/elastic_solid.h>

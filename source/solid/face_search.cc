@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "face_search.h"
+#include "solid/face_search.h"
 
 // The R-tree includes a deprecated header of Boost, of which every build would warn.
 #define BOOST_ALLOW_DEPRECATED_HEADERS

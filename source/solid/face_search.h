@@ -2,7 +2,7 @@
 #ifndef taut_face_search_h
 #define taut_face_search_h
 
-#include "surface_geometry.h"
+#include "solid/surface_geometry.h"
 
 #include <functional>
 #include <memory>

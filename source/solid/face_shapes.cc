@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "face_shapes.h"
+#include "solid/face_shapes.h"
 
 #include <cmath>
 

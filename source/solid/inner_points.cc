@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "surface_geometry.h"
+#include "solid/surface_geometry.h"
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "solid_entries.h"
+#include "solid/solid_entries.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <deal.II/base/utilities.h>
 

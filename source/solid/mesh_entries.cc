@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "mesh_arguments.h"
-#include "solid_entries.h"
+#include "solid/mesh_arguments.h"
+#include "solid/solid_entries.h"
 
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "mortar_rows.h"
-#include "mortar_segments.h"
+#include "solid/mortar_rows.h"
+#include "solid/mortar_segments.h"
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "mortar_rows.h"
-#include "surface_geometry.h"
+#include "solid/mortar_rows.h"
+#include "solid/surface_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "mortar_segments.h"
+#include "solid/mortar_segments.h"
 
 #include <algorithm>
 #include <cmath>

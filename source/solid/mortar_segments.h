@@ -2,9 +2,9 @@
 #ifndef taut_mortar_segments_h
 #define taut_mortar_segments_h
 
-#include "face_search.h"
-#include "overlap.h"
-#include "surface_geometry.h"
+#include "solid/face_search.h"
+#include "solid/overlap.h"
+#include "solid/surface_geometry.h"
 
 #include <array>
 #include <vector>

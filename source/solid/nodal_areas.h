@@ -2,8 +2,8 @@
 #ifndef taut_nodal_areas_h
 #define taut_nodal_areas_h
 
-#include "node_normals.h"
-#include "surface_geometry.h"
+#include "solid/node_normals.h"
+#include "solid/surface_geometry.h"
 
 #include <array>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "node_normals.h"
+#include "solid/node_normals.h"
 #include <taut/solid/contact_constraints.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef taut_node_normals_h
 #define taut_node_normals_h
 
-#include "surface_geometry.h"
+#include "solid/surface_geometry.h"
 
 #include <array>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "closest_point.h"
-#include "face_search.h"
-#include "nodal_areas.h"
-#include "overlap.h"
+#include "solid/closest_point.h"
+#include "solid/face_search.h"
+#include "solid/nodal_areas.h"
+#include "solid/overlap.h"
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "nodal_areas.h"
+#include "base/text.h"
+#include "solid/nodal_areas.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "overlap.h"
-#include "closest_point.h"
-#include "face_search.h"
+#include "solid/overlap.h"
+#include "base/text.h"
+#include "solid/closest_point.h"
+#include "solid/face_search.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef taut_overlap_h
 #define taut_overlap_h
 
-#include "surface_geometry.h"
+#include "solid/surface_geometry.h"
 #include <taut/solid/contact_constraints.h>
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "surface_geometry.h"
+#include "base/text.h"
+#include "solid/surface_geometry.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/solid/rigid_obstacle.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "solid_entries.h"
+#include "solid/solid_entries.h"
 
-#include <taut/base/about_entry.h>
+#include "base/about_entry.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/memory.h>
-#include <taut/base/write_file.h>
+#include "base/memory.h"
+#include "base/write_file.h"
 #include <taut/solid/elastic_solid.h>
 
 #include <deal.II/base/quadrature_lib.h>

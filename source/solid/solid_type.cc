@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "solid_entries.h"
+#include "solid/solid_entries.h"
 
-#include <taut/base/about_entry.h>
+#include "base/about_entry.h"
+#include "solid/divisible_solid.h"
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
-#include <taut/solid/divisible_solid.h>
 
 #include <deal.II/base/parameter_handler.h>
 

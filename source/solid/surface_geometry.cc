@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "surface_geometry.h"
-#include "face_search.h"
+#include "solid/surface_geometry.h"
+#include "base/text.h"
+#include "solid/face_search.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/solid/contact_constraints.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef taut_surface_geometry_h
 #define taut_surface_geometry_h
 
-#include "face_shapes.h"
+#include "solid/face_shapes.h"
 #include <taut/scene/contact_surface.h>
 
 #include <string>

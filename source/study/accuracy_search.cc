@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/accuracy_search.h"
+#include "base/interruption.h"
+#include "base/text.h"
+#include "study/study_report.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/interruption.h>
-#include <taut/base/text.h>
 #include <taut/output/table_file.h>
-#include <taut/study/accuracy_search.h>
-#include <taut/study/study_report.h>
 
 #include <algorithm>
 #include <cmath>

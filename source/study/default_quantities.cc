@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/default_quantities.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/table_file.h>
-#include <taut/study/default_quantities.h>
 
 #include <algorithm>
 #include <cmath>

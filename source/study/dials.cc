@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/dials.h"
 #include <taut/output/table_file.h>
-#include <taut/study/dials.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/data_files.h>
+#include "study/elasticity.h"
+#include "base/data_files.h"
+#include "base/interruption.h"
+#include "base/text.h"
+#include "base/write_file.h"
+#include "model/form_finding.h"
+#include "model/scene_constraints.h"
+#include "model/shared_parts.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/interruption.h>
-#include <taut/base/text.h>
-#include <taut/base/write_file.h>
-#include <taut/model/form_finding.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/model/shared_parts.h>
-#include <taut/study/elasticity.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/measured_run.h"
 #include <taut/base/exceptions.h>
 #include <taut/simulation/simulation.h>
-#include <taut/study/measured_run.h>
 
 #include <algorithm>
 #include <ctime>

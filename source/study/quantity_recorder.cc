@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/quantity_recorder.h"
+#include "base/nearest_name.h"
+#include "output/reactions.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
-#include <taut/output/reactions.h>
-#include <taut/study/quantity_recorder.h>
 
 #include <algorithm>
 #include <cmath>

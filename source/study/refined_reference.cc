@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/refined_reference.h"
 #include <taut/scene/expression.h>
-#include <taut/study/refined_reference.h>
 
 #include <algorithm>
 #include <cmath>

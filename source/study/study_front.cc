@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/study/study.h>
+#include "study/study.h"
 
 #include <algorithm>
 #include <limits>

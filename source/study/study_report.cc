@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/study_report.h"
+#include "base/write_file.h"
+#include "simulation/stored_study.h"
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
-#include <taut/base/write_file.h>
 #include <taut/output/table_file.h>
-#include <taut/simulation/stored_study.h>
-#include <taut/study/study_report.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/data_files.h>
+#include "study/sweep.h"
+#include "base/data_files.h"
+#include "base/interruption.h"
+#include "base/memory.h"
+#include "base/write_file.h"
 #include <taut/base/exceptions.h>
 #include <taut/base/growing_file.h>
-#include <taut/base/interruption.h>
-#include <taut/base/memory.h>
-#include <taut/base/write_file.h>
 #include <taut/output/table_file.h>
-#include <taut/study/sweep.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "study/trial_runs.h"
+#include "base/interruption.h"
+#include "study/case_runner.h"
+#include "study/default_quantities.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/interruption.h>
-#include <taut/study/case_runner.h>
-#include <taut/study/default_quantities.h>
-#include <taut/study/trial_runs.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef taut_block_elimination_h
 #define taut_block_elimination_h
 
-#include "blocks.h"
+#include "substructure/blocks.h"
 
 #include <algorithm>
 #include <cstring>

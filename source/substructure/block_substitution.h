@@ -2,7 +2,7 @@
 #ifndef taut_block_substitution_h
 #define taut_block_substitution_h
 
-#include "block_elimination.h"
+#include "substructure/block_elimination.h"
 
 #include <cstddef>
 

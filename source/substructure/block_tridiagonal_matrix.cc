@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "block_tridiagonal_matrix.h"
+#include "substructure/block_tridiagonal_matrix.h"
 
-#include <taut/base/instruction_set.h>
+#include "base/instruction_set.h"
 
 #include <algorithm>
 #include <stdexcept>

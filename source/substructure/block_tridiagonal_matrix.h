@@ -2,8 +2,8 @@
 #ifndef taut_block_tridiagonal_matrix_h
 #define taut_block_tridiagonal_matrix_h
 
-#include "cable_nodes.h"
-#include "diagonals.h"
+#include "substructure/cable_nodes.h"
+#include "substructure/diagonals.h"
 
 #include <taut/substructure/symmetric_matrix.h>
 

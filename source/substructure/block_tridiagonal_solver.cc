@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "block_tridiagonal_solver.h"
-#include "decoupled_block.h"
+#include "substructure/block_tridiagonal_solver.h"
+#include "substructure/decoupled_block.h"
 
 #include <stdexcept>
 

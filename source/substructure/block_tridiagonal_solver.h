@@ -2,10 +2,10 @@
 #ifndef taut_block_tridiagonal_solver_h
 #define taut_block_tridiagonal_solver_h
 
-#include "block_substitution.h"
-#include "block_tridiagonal_matrix.h"
+#include "substructure/block_substitution.h"
+#include "substructure/block_tridiagonal_matrix.h"
 
-#include <taut/base/instruction_set.h>
+#include "base/instruction_set.h"
 #include <taut/substructure/local_solver.h>
 
 #include <algorithm>

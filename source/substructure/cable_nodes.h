@@ -2,7 +2,7 @@
 #ifndef taut_cable_nodes_h
 #define taut_cable_nodes_h
 
-#include "decoupled_block.h"
+#include "substructure/decoupled_block.h"
 
 #include <algorithm>
 #include <cstddef>

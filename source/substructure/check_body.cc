@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/substructure/check_body.h>
-#include <taut/substructure/constrained_body.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef taut_decoupled_block_h
 #define taut_decoupled_block_h
 
-#include "block_elimination.h"
+#include "substructure/block_elimination.h"
 
 /// Blocks of cables whose motions in the plane of x and y and along z do not act on each other.
 namespace taut

@@ -2,7 +2,7 @@
 #ifndef taut_diagonals_h
 #define taut_diagonals_h
 
-#include "blocks.h"
+#include "substructure/blocks.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/base/exceptions.h>
 #include <taut/substructure/factored_structure.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/memory.h"
+#include "base/text.h"
+#include "base/write_file.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
-#include <taut/base/text.h>
-#include <taut/base/write_file.h>
 #include <taut/substructure/fe_body.h>
 
 #include <deal.II/dofs/dof_tools.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/substructure/fe_body.h>
 
 #include <deal.II/fe/fe.h>

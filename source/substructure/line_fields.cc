@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/memory.h>
-#include <taut/base/write_file.h>
-#include <taut/substructure/line_fields.h>
+#include "substructure/line_fields.h"
+#include "base/memory.h"
+#include "base/write_file.h"
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/grid/reference_cell.h>

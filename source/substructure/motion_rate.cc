@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/substructure/motion_rate.h>
+#include "substructure/motion_rate.h"
 
 #include <algorithm>
 #include <cmath>

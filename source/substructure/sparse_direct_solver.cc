@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/instruction_set.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/instruction_set.h>
 #include <taut/base/sparse_cholesky.h>
 #include <taut/substructure/local_solver.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/substructure/structure.h>
 
 #include <algorithm>

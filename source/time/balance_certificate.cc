@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cache_tiles.h"
+#include "time/cache_tiles.h"
 
-#include <taut/base/instruction_set.h>
-#include <taut/base/text.h>
-#include <taut/time/balance_certificate.h>
+#include "base/instruction_set.h"
+#include "base/text.h"
+#include "time/balance_certificate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/choose_scheme.h"
+#include "base/text.h"
+#include "time/largest_frequency.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
-#include <taut/time/largest_frequency.h>
 
 #include <cmath>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/time/constraint_laws.h>
+#include "time/constraint_laws.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the log says of the measures of contacts: warnings, the error and its remedy.
-#include <taut/base/text.h>
+#include "base/text.h"
 #include <taut/time/contact_measures.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/substructure/constrained_body.h>
-#include <taut/time/contact_residual.h>
-#include <taut/time/matrix_norms.h>
+#include "time/contact_residual.h"
+#include "time/matrix_norms.h"
+#include <taut/substructure/body_traits.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupled_rows.h"
-#include "link_flexibilities.h"
+#include "time/coupled_rows.h"
+#include "time/link_flexibilities.h"
 
+#include "time/contact_resolution.h"
+#include "time/matrix_norms.h"
 #include <taut/base/exceptions.h>
 #include <taut/interface/connected_bodies.h>
-#include <taut/time/contact_resolution.h>
-#include <taut/time/matrix_norms.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/sum_together.h>
-#include <taut/time/contact_step.h>
-#include <taut/time/matrix_norms.h>
+#include "time/contact_step.h"
+#include "base/sum_together.h"
+#include "time/matrix_norms.h"
 
 #include <algorithm>
 #include <cmath>

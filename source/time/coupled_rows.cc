@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupled_rows.h"
+#include "time/coupled_rows.h"
 
-#include <taut/base/groups.h>
+#include "base/groups.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/dot.h"
+#include "time/matrix_norms.h"
+#include "time/nonlinear_step.h"
+#include "time/step.h"
 #include <taut/base/archive.h>
-#include <taut/base/dot.h>
 #include <taut/time/energy_account.h>
-#include <taut/time/matrix_norms.h>
-#include <taut/time/nonlinear_step.h>
-#include <taut/time/step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "indifferent_bodies.h"
+#include "time/indifferent_bodies.h"
 
+#include "time/matrix_norms.h"
 #include <taut/base/exceptions.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/substructure/local_solver.h>
-#include <taut/substructure/slender_body.h>
-#include <taut/time/matrix_norms.h>
 
 namespace taut
 {

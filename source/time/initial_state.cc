@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "time/prescribed_motions.h"
+#include "time/turning_constraints.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 #include <taut/time/initial_state.h>
-#include <taut/time/prescribed_motions.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/turning_constraints.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "time/named_scheme.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/time/named_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
+#include "time/largest_frequency.h"
+#include "base/dot.h"
 #include <taut/substructure/factored_structure.h>
-#include <taut/time/largest_frequency.h>
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "link_flexibilities.h"
+#include "time/link_flexibilities.h"
 
-#include <taut/time/contact_resolution.h>
+#include "time/contact_resolution.h"
 
 #include <cmath>
 

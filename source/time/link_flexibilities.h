@@ -2,9 +2,9 @@
 #ifndef taut_link_flexibilities_h
 #define taut_link_flexibilities_h
 
-#include <taut/interface/schur_complement.h>
+#include "interface/schur_complement.h"
 #include <taut/time/integrator.h>
-#include <taut/time/solver_parameters.h>
+#include <taut/time/step_parameters.h>
 
 #include <memory>
 #include <vector>

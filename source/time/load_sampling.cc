@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/time/load_sampling.h>
+#include "time/load_sampling.h"
 
 #include <algorithm>
 #include <cmath>

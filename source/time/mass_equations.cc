@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/substructure/constrained_body.h>
-#include <taut/time/mass_equations.h>
+#include "time/mass_equations.h"
+#include <taut/substructure/body_traits.h>
 
 namespace taut
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/matrix_norms.h"
+#include "base/instruction_set.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/instruction_set.h>
-#include <taut/base/text.h>
-#include <taut/time/matrix_norms.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "time/choose_scheme.h"
+#include "time/contact_resolution.h"
+#include "time/load_sampling.h"
+#include "time/local_error.h"
+#include "time/nonlinear_step.h"
+#include "time/step.h"
+#include "time/step_control.h"
+#include "time/velocity_projection.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/time/choose_scheme.h>
-#include <taut/time/contact_resolution.h>
-#include <taut/time/load_sampling.h>
-#include <taut/time/local_error.h>
 #include <taut/time/motion.h>
-#include <taut/time/nonlinear_step.h>
-#include <taut/time/step.h>
-#include <taut/time/step_control.h>
-#include <taut/time/velocity_projection.h>
 
 #include <utility>
 

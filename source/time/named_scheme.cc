@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/nearest_name.h>
-#include <taut/base/text.h>
-#include <taut/time/named_scheme.h>
+#include "time/named_scheme.h"
+#include "base/nearest_name.h"
+#include "base/text.h"
 
 #include <deal.II/base/parameter_handler.h>
 

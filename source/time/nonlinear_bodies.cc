@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cache_tiles.h"
+#include "time/cache_tiles.h"
 
-#include <taut/substructure/slender_body.h>
-#include <taut/time/matrix_norms.h>
-#include <taut/time/nonlinear_bodies.h>
+#include "time/matrix_norms.h"
+#include "time/nonlinear_bodies.h"
+#include <taut/substructure/body_traits.h>
 
 #include <algorithm>
 #include <cmath>

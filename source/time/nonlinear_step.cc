@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/nonlinear_step.h"
+#include "base/newton_search.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/newton_search.h>
-#include <taut/base/text.h>
-#include <taut/time/nonlinear_step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/substructure/motion_rate.h>
-#include <taut/time/prescribed_motions.h>
+#include "time/prescribed_motions.h"
+#include "substructure/motion_rate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/time/projection_compliance.h>
+#include "time/projection_compliance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "indifferent_bodies.h"
-#include "static_step.h"
-#include "turning_at_rest.h"
+#include "time/indifferent_bodies.h"
+#include "time/static_step.h"
+#include "time/turning_at_rest.h"
 
+#include "base/newton_search.h"
+#include "base/text.h"
+#include "time/matrix_norms.h"
+#include "time/nonlinear_bodies.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/newton_search.h>
-#include <taut/base/text.h>
-#include <taut/substructure/slender_body.h>
-#include <taut/time/matrix_norms.h>
-#include <taut/time/nonlinear_bodies.h>
+#include <taut/substructure/body_traits.h>
 
 #include <algorithm>
 #include <cmath>

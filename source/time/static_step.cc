@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "static_step.h"
+#include "time/static_step.h"
 
+#include "complementarity/active_set_system.h"
 #include <taut/base/exceptions.h>
-#include <taut/complementarity/active_set_system.h>
 
 #include <algorithm>
 #include <cmath>

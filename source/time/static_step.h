@@ -2,8 +2,8 @@
 #ifndef taut_static_step_h
 #define taut_static_step_h
 
+#include "time/step.h"
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/step.h>
 
 #include <vector>
 

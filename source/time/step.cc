@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/time/step.h>
+#include "time/step.h"
 
 #include <algorithm>
 

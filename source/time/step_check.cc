@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/step_check.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/time/solver_parameters.h>
-#include <taut/time/step_check.h>
+#include <taut/time/step_parameters.h>
 
 namespace taut
 {

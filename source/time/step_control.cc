@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/step_control.h"
 #include <taut/base/exceptions.h>
 #include <taut/time/motion.h>
-#include <taut/time/step_control.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/step_equations.h"
+#include "base/gather_entries.h"
+#include "complementarity/active_set_system.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/gather_entries.h>
-#include <taut/complementarity/active_set_system.h>
-#include <taut/time/step_equations.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cache_tiles.h"
+#include "time/cache_tiles.h"
 
-#include <taut/base/instruction_set.h>
-#include <taut/time/step_history.h>
+#include "base/instruction_set.h"
+#include "time/step_history.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
+#include "interface/check_constraint.h"
+#include "time/named_scheme.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/interface/check_constraint.h>
-#include <taut/time/named_scheme.h>
 #include <taut/time/stepper.h>
 
 #include <boost/algorithm/string/replace.hpp>

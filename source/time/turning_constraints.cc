@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time/turning_constraints.h"
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/time/turning_constraints.h>
 
 #include <algorithm>
 #include <cmath>

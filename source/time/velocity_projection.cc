@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
-#include <taut/time/velocity_projection.h>
+#include "time/velocity_projection.h"
+#include "base/dot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "distributed_load.h"
+#include "wire/distributed_load.h"
 
+#include "base/text.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

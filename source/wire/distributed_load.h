@@ -2,7 +2,7 @@
 #ifndef taut_distributed_load_h
 #define taut_distributed_load_h
 
-#include "element_load.h"
+#include "wire/element_load.h"
 
 #include <taut/wire/wire_component.h>
 

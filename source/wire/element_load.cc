@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "element_load.h"
+#include "wire/element_load.h"
 
 #include <algorithm>
 #include <cmath>

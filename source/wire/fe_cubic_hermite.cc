@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "wire/fe_cubic_hermite.h"
+#include "wire/hermite_shape.h"
 #include <taut/base/exceptions.h>
-#include <taut/wire/fe_cubic_hermite.h>
-#include <taut/wire/hermite_shape.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/polynomial.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "element_matrices.h"
-#include "wire_discretisation.h"
+#include "wire/element_matrices.h"
+#include "wire/wire_discretisation.h"
 
+#include "scene/shared_places.h"
+#include "wire/fe_cubic_hermite.h"
 #include <taut/base/exceptions.h>
-#include <taut/scene/shared_places.h>
-#include <taut/wire/fe_cubic_hermite.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Supports, point masses and loads of a wire.
-#include "distributed_load.h"
+#include "wire/distributed_load.h"
 
-#include <taut/scene/travel.h>
+#include "scene/travel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later The motion of a wire: displacement at a point, initial
 // state, rigid body modes.
-#include "wire_discretisation.h"
+#include "wire/wire_discretisation.h"
 
+#include "base/text.h"
+#include "wire/hermite_shape.h"
 #include <taut/base/exceptions.h>
-#include <taut/base/text.h>
-#include <taut/wire/hermite_shape.h>
 
 #include <algorithm>
 #include <cmath>

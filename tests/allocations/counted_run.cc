@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "counted_run.h"
 
-#include <taut/base/interruption.h>
+#include "base/interruption.h"
 #include <taut/simulation/simulation.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // The contact problem of one step of a catenary line: 90 droppers and joints whose rows of F stay,
 // and one moving contact, ordered last, whose row is new in each step. Starts from the set of the
 // step before.
-#include <taut/complementarity/solver.h>
+#include "complementarity/solver.h"
 
 #include <benchmark/benchmark.h>
 

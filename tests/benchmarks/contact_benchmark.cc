@@ -9,8 +9,8 @@
 #include "solid/wavy_floor.h"
 #include "verification/run.h"
 
+#include "model/surface_constraints.h"
 #include <taut/base/exceptions.h>
-#include <taut/model/surface_constraints.h>
 
 #include <cstdio>
 #include <cstdlib>

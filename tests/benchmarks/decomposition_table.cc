@@ -4,10 +4,10 @@
 // Beside the printed table stand (a) dense blocks by factor-and-solve, (b) dense blocks by explicit
 // inverse (n >= 2) against one factorisation (n = 1), (c) Taut's own local solvers. Medians of the
 // runs. Usage: decomposition_table [runs] [largest N0 of the dense blocks].
-#include <taut/complementarity/solver.h>
-#include <taut/interface/schur_complement.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/partition/make_partition.h>
+#include "complementarity/solver.h"
+#include "interface/schur_complement.h"
+#include "model/scene_constraints.h"
+#include "partition/make_partition.h"
 
 #include <algorithm>
 #include <chrono>

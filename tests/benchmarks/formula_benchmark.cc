@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Formulas of parameter files: the time of one evaluation, beside that of sin alone.
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
 #include <taut/scene/expression.h>
 
 #include <benchmark/benchmark.h>

@@ -5,8 +5,8 @@
 #include "cable/errors_of_runs.h"
 #include "cable/slack_cable.h"
 
-#include <taut/base/dot.h>
-#include <taut/cable/find_length.h>
+#include "base/dot.h"
+#include "cable/find_length.h"
 
 #include <cstdio>
 #include <tuple>

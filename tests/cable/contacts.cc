@@ -3,7 +3,7 @@
 // is and however it is turned, on any side of the cable. Source: closed forms; the plane z = 0.
 #include "cable/errors_of_runs.h"
 
-#include <taut/model/surface_constraints.h>
+#include "model/surface_constraints.h"
 
 #include <tuple>
 

@@ -3,7 +3,7 @@
 // of the forces, and mean forces do the work of the energy. Source: differences, and identities.
 #include "common.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/cable/cable_elements.h>
 
 namespace

@@ -5,7 +5,7 @@
 #include "cable/one_cable.h"
 #include "cable/places_in_steps.h"
 
-#include <taut/output/scene_report.h>
+#include "output/scene_report.h"
 #include <taut/time/static_equilibrium.h>
 
 namespace

@@ -7,7 +7,7 @@
 #include "cable/slack_cable.h"
 #include "common.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/time/static_equilibrium.h>
 
 namespace

@@ -3,8 +3,8 @@
 // is in space. Expected values: the same scene written otherwise, closed forms, and the messages.
 #include "cable/errors_of_runs.h"
 
-#include <taut/output/scene_report.h>
-#include <taut/output/scene_sketch.h>
+#include "output/scene_report.h"
+#include "output/scene_sketch.h"
 
 #include <cstdint>
 #include <cstring>

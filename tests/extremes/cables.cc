@@ -8,7 +8,7 @@
 #include "levels.h"
 #include "one_body.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/cable/cable.h>
 
 #include <cstdio>

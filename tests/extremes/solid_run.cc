@@ -6,7 +6,7 @@
 #include "solid/mesh_file.h"
 #include "verification/run.h"
 
-#include <taut/model/surface_constraints.h>
+#include "model/surface_constraints.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>

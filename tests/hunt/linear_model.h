@@ -4,7 +4,7 @@
 
 #include "history.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/output/observer.h>
 
 #include <deal.II/lac/full_matrix.h>

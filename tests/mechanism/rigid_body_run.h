@@ -5,7 +5,7 @@
 #include "common.h"
 #include "one_body.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/mechanism/rigid_body.h>
 
 namespace mechanism

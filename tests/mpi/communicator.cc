@@ -3,8 +3,8 @@
 // sums of whole numbers in closed form; ranks, places and kinds of errors drawn by all ranks alike.
 #include "common.h"
 
+#include "base/rank_abort.h"
 #include <taut/base/communicator.h>
-#include <taut/base/rank_abort.h>
 
 #include <limits>
 #include <new>

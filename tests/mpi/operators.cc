@@ -5,9 +5,9 @@
 #include "common.h"
 #include "fuzz/door_bodies.h"
 
+#include "interface/schur_complement.h"
 #include <taut/base/communicator.h>
 #include <taut/interface/contact_schur_operator.h>
-#include <taut/interface/schur_complement.h>
 #include <taut/interface/system.h>
 
 #include <AztecOO.h>

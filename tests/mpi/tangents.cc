@@ -3,7 +3,7 @@
 // of ranks. Source: of two wires one has a tangent with a negative pivot at first.
 #include "../verification/run.h"
 
-#include <taut/time/step_equations.h>
+#include "time/step_equations.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "verification/interface_problem.h"
 
-#include <taut/solid/divisible_solid.h>
+#include "solid/divisible_solid.h"
 
 #include <deal.II/grid/grid_generator.h>
 

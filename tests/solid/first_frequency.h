@@ -4,7 +4,7 @@
 
 #include "common.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/substructure/local_solver.h>
 #include <taut/substructure/substructure.h>
 

@@ -4,7 +4,7 @@
 
 #include "verification/scene_tests.h"
 
-#include <taut/model/surface_constraints.h>
+#include "model/surface_constraints.h"
 
 #include <nlohmann/json.hpp>
 

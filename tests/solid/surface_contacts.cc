@@ -4,7 +4,7 @@
 #include "solid/wavy_floor.h"
 #include "verification/scene_tests.h"
 
-#include <taut/model/surface_constraints.h>
+#include "model/surface_constraints.h"
 
 #include <deal.II/grid/grid_generator.h>
 

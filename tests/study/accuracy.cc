@@ -3,10 +3,10 @@
 // wall), stores them for Study/Accuracy, and says so where it has no estimate.
 #include "study/in_folder.h"
 
+#include "study/accuracy_search.h"
+#include "study/default_quantities.h"
+#include "study/dials.h"
 #include <taut/simulation/parameters.h>
-#include <taut/study/accuracy_search.h>
-#include <taut/study/default_quantities.h>
-#include <taut/study/dials.h>
 
 namespace
 {

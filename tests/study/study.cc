@@ -4,9 +4,9 @@
 // Accuracy takes the cheapest setting of a study of the same scene and of no other.
 #include "study/in_folder.h"
 
+#include "study/study.h"
+#include "study/sweep.h"
 #include <taut/simulation/simulation.h>
-#include <taut/study/study.h>
-#include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
 

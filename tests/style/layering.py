@@ -73,13 +73,12 @@ for parent in ("include/taut", "source"):
             if not include:
                 continue
             n_includes += 1
-            if include[1] == '"':  # a private header beside the file
-                if "/" in include[2]:
-                    errors.append(f'{file}:{number}: "{include[2]}": quotes are for headers of the same folder')
-                continue
-            why = problem(f"{parent}/{room}", room, include[2])
+            if include[1] == '"' and parent != "source":
+                errors.append(f'{file}:{number}: "{include[2]}": a public header includes no private one')
+            name = f"taut/{include[2]}" if include[1] == '"' else include[2]  # "room/x.h" lies in source/
+            why = problem(f"{parent}/{room}", room, name)
             if why:
-                errors.append(f"{file}:{number}: <{include[2]}>: {why}")
+                errors.append(f"{file}:{number}: {include[2]}: {why}")
 
 print(n_includes, "includes")
 if n_includes == 0:

@@ -3,8 +3,8 @@
 #include "common.h"
 #include "complementarity_reference.h"
 
-#include <taut/complementarity/energy_ordered.h>
-#include <taut/complementarity/solver.h>
+#include "complementarity/energy_ordered.h"
+#include "complementarity/solver.h"
 
 #include <limits>
 #include <new>

@@ -4,7 +4,7 @@
 #include "common.h"
 #include "complementarity_reference.h"
 
-#include <taut/complementarity/solver.h>
+#include "complementarity/solver.h"
 
 #include <iostream>
 

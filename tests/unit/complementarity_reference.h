@@ -2,7 +2,7 @@
 #ifndef taut_complementarity_reference_h
 #define taut_complementarity_reference_h
 
-#include <taut/complementarity/problem.h>
+#include "complementarity/problem.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 // Figures of contact forces and of droppers against records whose figures are known.
 #include "common.h"
 
+#include "output/power_spectrum.h"
+#include "output/rainflow.h"
 #include <taut/base/exceptions.h>
-#include <taut/output/contact_figures.h>
-#include <taut/output/contact_sums.h>
-#include <taut/output/link_force.h>
-#include <taut/output/power_spectrum.h>
-#include <taut/output/rainflow.h>
+#include <taut/output/contact_quantities.h>
+#include <taut/output/sliding_contacts.h>
+#include <taut/output/support_figures.h>
 
 #include <gtest/gtest.h>
 

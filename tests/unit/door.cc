@@ -4,8 +4,8 @@
 #include "common.h"
 #include "fuzz/door_bodies.h"
 
+#include "mechanism/mechanism.h"
 #include <taut/cable/cable.h>
-#include <taut/mechanism/mechanism.h>
 #include <taut/scene/scene.h>
 #include <taut/time/stepper.h>
 #include <taut/wire/wire_component.h>

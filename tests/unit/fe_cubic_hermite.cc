@@ -2,8 +2,8 @@
 // Claim: the Hermite element agrees with polynomials, textbook matrices and frequencies of a beam.
 #include "common.h"
 
-#include <taut/wire/fe_cubic_hermite.h>
-#include <taut/wire/hermite_shape.h>
+#include "wire/fe_cubic_hermite.h"
+#include "wire/hermite_shape.h"
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/multithread_info.h>

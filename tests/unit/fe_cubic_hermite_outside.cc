@@ -3,7 +3,7 @@
 // exception in Release as well. Expected values are those of a cubic, which the element holds.
 #include "common.h"
 
-#include <taut/wire/fe_cubic_hermite.h>
+#include "wire/fe_cubic_hermite.h"
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/function.h>

@@ -5,8 +5,8 @@
 // and fewer still from the multipliers of a neighbouring problem.
 #include "common.h"
 
-#include <taut/base/dot.h>
-#include <taut/complementarity/solver.h>
+#include "base/dot.h"
+#include "complementarity/solver.h"
 
 namespace
 {

@@ -4,8 +4,8 @@
 // equal to 1e-12 of the largest entry (condition numbers are below 1e3).
 #include "common.h"
 
-#include <taut/complementarity/dense_operator.h>
-#include <taut/complementarity/sparse_operator.h>
+#include "complementarity/dense_operator.h"
+#include "complementarity/sparse_operator.h"
 
 namespace
 {

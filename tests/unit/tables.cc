@@ -3,7 +3,7 @@
 // them, and none outside. Sources: sums by hand; a straight line and a parabola; Boost's pchip.
 #include "common.h"
 
-#include <taut/base/data_files.h>
+#include "base/data_files.h"
 #include <taut/scene/expression.h>
 
 #include <math.h> // isnan, which pchip.hpp of Boost 1.74 takes from the global namespace

@@ -2,7 +2,7 @@
 // Claim: the way of a speed in time is its integral to 1e-12. Sources: integrals in closed form.
 #include "common.h"
 
-#include <taut/scene/travel.h>
+#include "scene/travel.h"
 
 namespace
 {

@@ -6,7 +6,7 @@
 #include "scene_tests.h"
 #include "solid/first_frequency.h"
 
-#include <taut/output/line_constants.h>
+#include <taut/output/spans.h>
 
 #include <array>
 #include <complex>

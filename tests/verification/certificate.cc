@@ -4,7 +4,7 @@
 // step is refused with the name of what is wrong.
 #include "scene_tests.h"
 
-#include <taut/model/scene_constraints.h>
+#include "model/scene_constraints.h"
 #include <taut/time/motion.h>
 #include <taut/time/static_equilibrium.h>
 

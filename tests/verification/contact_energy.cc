@@ -4,7 +4,7 @@
 // by M and K, of random problems without loads: contacts, joints and dampers can only take it.
 #include "scene_tests.h"
 
-#include <taut/model/scene_constraints.h>
+#include "model/scene_constraints.h"
 #include <taut/time/motion.h>
 
 using namespace verification;

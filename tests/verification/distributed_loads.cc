@@ -5,7 +5,7 @@
 // Sources: closed forms of the integrals of blocks and waves; the Gauss rule, computed here.
 #include "scene_tests.h"
 
-#include <taut/base/dot.h>
+#include "base/dot.h"
 #include <taut/wire/wire_component.h>
 
 #include <deal.II/base/quadrature_lib.h>

@@ -4,7 +4,7 @@
 // phase.
 #include "scene_tests.h"
 
-#include <taut/output/low_pass.h>
+#include "output/low_pass.h"
 
 #include <complex>
 

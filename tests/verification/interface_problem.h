@@ -2,10 +2,10 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
-#include <taut/complementarity/solver.h>
-#include <taut/interface/schur_complement.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/partition/make_partition.h>
+#include "complementarity/solver.h"
+#include "interface/schur_complement.h"
+#include "model/scene_constraints.h"
+#include "partition/make_partition.h"
 
 #include <algorithm>
 #include <ctime>

@@ -3,10 +3,10 @@
 // formulas of strings.
 #include "scene_tests.h"
 
-#include <taut/output/low_pass.h>
+#include "output/low_pass.h"
+#include "study/measured_run.h"
+#include "study/sweep.h"
 #include <taut/output/spans.h>
-#include <taut/study/measured_run.h>
-#include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
 

@@ -6,7 +6,7 @@
 // 0.741 m.
 #include "scene_tests.h"
 
-#include <taut/model/scene_constraints.h>
+#include "model/scene_constraints.h"
 #include <taut/time/motion.h>
 
 using namespace verification;

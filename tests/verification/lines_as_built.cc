@@ -4,9 +4,9 @@
 // strings; an arm that is a stiff beam on a hinge.
 #include "scene_tests.h"
 
-#include <taut/base/text.h>
-#include <taut/output/line_constants.h>
-#include <taut/study/elasticity.h>
+#include "base/text.h"
+#include "study/elasticity.h"
+#include <taut/output/spans.h>
 
 #include <filesystem>
 

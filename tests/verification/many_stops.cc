@@ -5,8 +5,8 @@
 // radius 0.8 has M / (beta' step^2) in the matrix of a step; n stops side by side are one of n k.
 #include "scene_tests.h"
 
-#include <taut/model/scene_constraints.h>
-#include <taut/time/choose_scheme.h>
+#include "model/scene_constraints.h"
+#include "time/choose_scheme.h"
 
 using namespace verification;
 

@@ -3,7 +3,7 @@
 // their tables with them, and no run goes on with another table. Sources: the same functions.
 #include "scene_tests.h"
 
-#include <taut/study/sweep.h>
+#include "study/sweep.h"
 
 #include <unistd.h>
 

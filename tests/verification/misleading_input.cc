@@ -3,7 +3,7 @@
 // and are short, and a folder has the results of one run at a time.
 #include "scene_tests.h"
 
-#include <taut/scene/network_entries.h>
+#include "scene/network_entries.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -4,9 +4,9 @@
 // m/s.
 #include "scene_tests.h"
 
+#include "study/measured_run.h"
+#include "study/sweep.h"
 #include <taut/base/registry.h>
-#include <taut/study/measured_run.h>
-#include <taut/study/sweep.h>
 
 #include <nlohmann/json.hpp>
 

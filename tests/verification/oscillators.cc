@@ -7,7 +7,7 @@
 // the complex amplitude of a base-excited oscillator and its free motion say.
 #include "scene_tests.h"
 
-#include <taut/scene/network_entries.h>
+#include "scene/network_entries.h"
 
 #include <complex>
 

@@ -5,7 +5,7 @@
 // of strings and ropes that may turn, found here by Newton's method.
 #include "scene_tests.h"
 
-#include <taut/output/reactions.h>
+#include "output/reactions.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>

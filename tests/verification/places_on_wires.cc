@@ -4,7 +4,7 @@
 #include "cable/errors_of_runs.h"
 #include "common.h"
 
-#include <taut/scene/shared_places.h>
+#include "scene/shared_places.h"
 
 using namespace verification;
 

@@ -5,7 +5,7 @@
 // 120 N, by balance.
 #include "scene_tests.h"
 
-#include <taut/model/form_finding.h>
+#include "model/form_finding.h"
 
 using namespace verification;
 

@@ -4,7 +4,7 @@
 // displacements, to 1e-10 of the largest one or 10 eps cond(F), whichever is more.
 #include "scene_tests.h"
 
-#include <taut/interface/schur_complement.h>
+#include "interface/schur_complement.h"
 
 #include <deal.II/lac/lapack_templates.h>
 

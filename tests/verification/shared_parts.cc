@@ -4,10 +4,10 @@
 // and the members of scene.h, each changed in turn.
 #include "scene_tests.h"
 
-#include <taut/model/form_finding.h>
+#include "model/form_finding.h"
+#include "scene/scene_values.h"
+#include "study/case_runner.h"
 #include <taut/model/scene_bodies.h>
-#include <taut/scene/scene_values.h>
-#include <taut/study/case_runner.h>
 
 using namespace verification;
 

@@ -3,9 +3,9 @@
 // not-a-number included. Source: a loop over all entries.
 #include "scene_tests.h"
 
+#include "model/scene_constraints.h"
+#include "time/matrix_norms.h"
 #include <taut/interface/constraints.h>
-#include <taut/model/scene_constraints.h>
-#include <taut/time/matrix_norms.h>
 
 #include <limits>
 

@@ -4,7 +4,7 @@
 
 #include "scene_tests.h"
 
-#include <taut/mechanism/mechanism.h>
+#include "mechanism/mechanism.h"
 
 /// Point masses in space and links between them that turn.
 namespace turning

@@ -3,8 +3,8 @@
 // bit of all tables and statistics. Source: the run of the generator itself.
 #include "scene_tests.h"
 
-#include <taut/scene/network_entries.h>
-#include <taut/simulation/network_file.h>
+#include "scene/network_entries.h"
+#include "simulation/network_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,9 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,16 @@ namespace taut
     MPI_Comm processes = MPI_COMM_NULL;
     unsigned int own_rank = 0, n_ranks = 1;
   };
+
+  /// True if mpirun or a similar program started this program. Starting MPI to ask it costs as much
+  /// as a short run.
+  inline bool started_in_parallel()
+  {
+    for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"})
+      if (std::getenv(name))
+        return true;
+    return false;
+  }
 } // namespace taut
 
 #endif

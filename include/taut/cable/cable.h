@@ -5,7 +5,7 @@
 #include <taut/base/coordinates.h>
 #include <taut/cable/cable_elements.h>
 #include <taut/cable/find_shape.h>
-#include <taut/substructure/slender_body.h>
+#include <taut/substructure/body_traits.h>
 
 #include <functional>
 #include <memory>

@@ -2,7 +2,6 @@
 #ifndef taut_contact_schur_operator_h
 #define taut_contact_schur_operator_h
 
-#include <taut/interface/body_constraints.h>
 #include <taut/interface/constraint_operator.h>
 #include <taut/substructure/factored_structure.h>
 

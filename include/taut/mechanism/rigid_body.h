@@ -3,7 +3,7 @@
 #define taut_rigid_body_h
 
 #include <taut/base/coordinates.h>
-#include <taut/substructure/constrained_body.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/substructure/substructure.h>
 
 #include <array>

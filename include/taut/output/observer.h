@@ -7,7 +7,6 @@
 #include <taut/base/registry.h>
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/output/named_quantity.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
 #include <taut/time/state.h>
@@ -117,6 +116,15 @@ namespace taut
     /// Called after finish(): writes the final report to the log. It must not communicate if the
     /// run @p failed, as other ranks may not know.
     virtual void report(std::ostream & /*log*/, bool /*failed*/) const {}
+  };
+
+  /// A result that is one number: of a sliding contact, another link, a probe, or what an observer
+  /// measures.
+  struct NamedQuantity
+  {
+    std::string item, quantity;
+    double value;
+    std::string unit;
   };
 } // namespace taut
 

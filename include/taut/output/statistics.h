@@ -3,11 +3,7 @@
 #define taut_statistics_h
 
 #include <taut/base/warning.h>
-#include <taut/output/contact_figures.h>
 #include <taut/output/contact_quantities.h>
-#include <taut/output/contact_sums.h>
-#include <taut/output/line_constants.h>
-#include <taut/output/link_force.h>
 #include <taut/output/observer.h>
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/spans.h>

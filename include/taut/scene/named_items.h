@@ -13,6 +13,8 @@ namespace dealii
 
 namespace taut
 {
+  struct Scene;
+
   /**
    * Throws an EntryError on @p list_entry if a name is unusable or repeated. Call it before the
    * names are declared again. The handler writes its default value and reads it back, which loses
@@ -76,6 +78,20 @@ namespace taut
     }
 
     std::string parent, list, section, help;
+  };
+
+  /// A named probe of a parameter file: one point, or several of a wire or a body.
+  struct ProbeItem
+  {
+    std::string point;
+    std::vector<double> direction, axis;
+    bool rotational = false;
+    std::string quantity = "displacement";
+    void declare(dealii::ParameterHandler &prm);
+
+    /// Adds its probes to a scene with all wires, masses and bodies. @p title is the path of its
+    /// section. Throws EntryError for a point that is not known.
+    void add(const std::string &name, const std::string &title, Scene &scene) const;
   };
 } // namespace taut
 

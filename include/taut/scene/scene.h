@@ -6,8 +6,8 @@
 #include <taut/base/force_law.h>
 #include <taut/base/start.h>
 #include <taut/scene/body_type.h>
+#include <taut/scene/contact_surface.h>
 #include <taut/scene/expression.h>
-#include <taut/scene/surface_contact.h>
 
 #include <cstddef>
 #include <limits>

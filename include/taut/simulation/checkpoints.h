@@ -2,7 +2,6 @@
 #ifndef taut_checkpoints_h
 #define taut_checkpoints_h
 
-#include <taut/base/data_files.h>
 #include <taut/output/observer.h>
 
 #include <iosfwd>
@@ -27,7 +26,7 @@ namespace taut
     /// run.
     Checkpoints(const std::string &folder, double interval, std::ostream &log,
                 const std::map<std::string, std::string> &entries = {},
-                const DataFiles &files = {});
+                const std::map<std::string, std::shared_ptr<const std::string>> &files = {});
     ~Checkpoints() override;
 
     /// Reads the last checkpoint of the folder, if any. Throws UserError if it is unusable or a

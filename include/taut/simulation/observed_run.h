@@ -3,8 +3,6 @@
 #define taut_observed_run_h
 
 #include <taut/output/observer.h>
-#include <taut/output/reactions.h>
-#include <taut/simulation/checkpoints.h>
 #include <taut/time/stepper.h>
 
 #include <chrono>
@@ -16,6 +14,9 @@
 
 namespace taut
 {
+  class Checkpoints;
+  class Reactions;
+
   /**
    * Steps with observers. Use it in a program with tables, fields, statistics or checkpoints of a
    * Stepper:
@@ -42,6 +43,7 @@ namespace taut
     /// For a scene, at its start; the references are kept. The folder is not made.
     ObservedRun(Motion &motion, const Scene &scene, const SceneBodies &structure,
                 const std::string &folder, double interval);
+    ~ObservedRun();
 
     /// Adds a probe before the observers with a column for it: displacement or rotation of a form,
     /// from the start if that is an equilibrium [m, rad].
@@ -122,7 +124,7 @@ namespace taut
     const SceneBodies &bodies;
     const std::string folder;
     const double interval;
-    Reactions reactions;
+    const std::unique_ptr<Reactions> reactions;
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
     std::vector<Observer *> observers;

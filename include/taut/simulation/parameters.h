@@ -5,16 +5,11 @@
 #include <taut/base/exceptions.h>
 #include <taut/output/observer.h>
 #include <taut/output/statistics.h>
-#include <taut/partition/make_partition.h>
 #include <taut/scene/named_items.h>
-#include <taut/scene/probe_item.h>
 #include <taut/scene/scene_generator.h>
-#include <taut/simulation/elasticity_parameters.h>
 #include <taut/simulation/parameter_file.h>
 #include <taut/simulation/study_parameters.h>
-#include <taut/simulation/sweep_parameters.h>
 #include <taut/time/integrator.h>
-#include <taut/time/solver_parameters.h>
 #include <taut/time/step_parameters.h>
 
 #include <iosfwd>
@@ -24,8 +19,14 @@
 #include <string>
 #include <vector>
 
+namespace dealii
+{
+  class ParameterHandler;
+}
+
 namespace taut
 {
+  struct Scene;
   /// Place and interval of results.
   struct OutputParameters
   {

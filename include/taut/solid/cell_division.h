@@ -3,7 +3,7 @@
 #define taut_cell_division_h
 
 #include <taut/base/lasting.h>
-#include <taut/scene/divisible_body.h>
+#include <taut/scene/partition.h>
 
 #include <deal.II/dofs/dof_handler.h>
 

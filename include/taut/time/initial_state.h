@@ -5,8 +5,8 @@
 #include <taut/base/start.h>
 #include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
-#include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
+#include <taut/time/step_parameters.h>
 
 #include <string>
 

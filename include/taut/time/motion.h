@@ -8,7 +8,6 @@
 #include <taut/time/energy_account.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/integrator.h>
-#include <taut/time/longest_step.h>
 #include <taut/time/step_costs.h>
 #include <taut/time/step_parameters.h>
 #include <taut/time/step_report.h>
@@ -22,6 +21,7 @@
 namespace taut
 {
   class ContactResolution;
+  struct LongestStep;
   struct InterfaceStatistics;
 
   /// Options of a motion; the defaults suit most systems.

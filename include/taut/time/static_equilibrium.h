@@ -4,7 +4,7 @@
 
 #include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
-#include <taut/time/solver_parameters.h>
+#include <taut/time/step_parameters.h>
 
 #include <vector>
 

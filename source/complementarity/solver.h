@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solver_h
+#define taut_solver_h
+
+#include "complementarity/energy_ordered.h"
+#include "complementarity/repeated_rows.h"
+#include "complementarity/semismooth_newton.h"
+
+#include <string>
+
+namespace taut
+{
+  /// A solved problem and how it was solved.
+  struct ComplementarityResult
+  {
+    MixedComplementaritySolution solution;
+
+    /// Active sets of Newton's method, and changes of one row by the energy-ordered method, of all
+    /// attempts.
+    unsigned int iterations = 0;
+
+    /// True if the other method, not the chosen one, found the solution.
+    bool used_fallback = false;
+
+    /// The residual, at most the tolerance.
+    ComplementarityResidual residual;
+  };
+
+  /**
+   * Solves a sequence of mixed complementarity problems, one per step of a run. Each starts from
+   * the active set of the problem before. A problem with bilateral rows only takes one linear
+   * solve, and so does a problem whose active set has not changed. Bilateral rows that repeat
+   * others get multipliers of least norm, see RepeatedRows.
+   */
+  class ComplementaritySolver
+  {
+  public:
+    /**
+     * @p method is "semismooth Newton" or "energy-ordered". Where Newton's method fails, the
+     * energy-ordered method takes over. Where the energy-ordered method misses the tolerance,
+     * Newton's method starts from its active set. Another name is a UserError.
+     */
+    explicit ComplementaritySolver(
+        const std::string &method = "semismooth Newton",
+        const ComplementarityOptions &options = ComplementarityOptions());
+
+    /**
+     * The result is valid until the next call, which starts from it; a problem of another size
+     * starts anew. Throws ContradictoryRows with indices of rows, BodyNotHeld with indices of null
+     * space vectors, and NotSolved if the residual remains above the tolerance. After an exception
+     * the next call starts anew.
+     */
+    const ComplementarityResult &solve(const MixedComplementarityProblem &problem,
+                                       ComplementarityOperator &matrix);
+
+    /// Starts the next problem from these closed rows, e.g. those of a checkpoint. Empty: from no
+    /// closed row.
+    void start_from(const std::vector<char> &closed) { result.solution.closed = closed; }
+
+    /// Before the problems of one search whose rows are linearised, from a state that satisfies
+    /// them: rows that repeat others there are the same in all of these problems. Gaps of such rows
+    /// are then no error, as they have the error of the linearisation.
+    void begin_search()
+    {
+      is_linearised = true;
+      has_sought = false;
+    }
+
+    /// Rows that repeat others, found or of an earlier solver.
+    const RepeatedRows &repeated_rows() const { return repeated; }
+    void set_repeated_rows(const RepeatedRows &rows)
+    {
+      begin_search();
+      repeated = rows;
+      has_sought = !rows.empty();
+    }
+
+  private:
+    void check_inert_rows(const MixedComplementarityProblem &problem,
+                          const ComplementarityOperator &matrix) const;
+    bool spread_over_repeated_rows(const MixedComplementarityProblem &problem,
+                                   const ComplementarityOperator &matrix);
+    bool solve_with_newton(const MixedComplementarityProblem &problem,
+                           ComplementarityOperator &matrix);
+    void solve_energy_ordered(const MixedComplementarityProblem &problem,
+                              ComplementarityOperator &matrix);
+
+    ComplementarityOptions options;
+    bool use_newton;
+    SemismoothNewton newton;
+    EnergyOrderedActiveSet energy_ordered;
+    ComplementarityResult result;
+    RepeatedRows repeated;
+    bool has_sought = false, is_linearised = false;
+    std::vector<double> terms;
+  };
+} // namespace taut
+
+#endif

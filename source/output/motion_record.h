@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_motion_record_h
+#define taut_motion_record_h
+
+#include "output/impulse_record.h"
+#include <taut/base/archive_forward.h>
+#include <taut/interface/connected_bodies.h>
+#include <taut/time/state.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace taut
+{
+  /// The difference of two motions, relative to the largest values of the second motion, in the
+  /// group of connected bodies with the largest difference.
+  struct MotionDifference
+  {
+    double place = 0., impulse = 0., energy = 0.; ///< [1]
+
+    /// Bounds within which two motions are equally good.
+    static constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
+
+    /// The largest ratio of the three to its bound; not-a-number if one is.
+    double over_bounds() const;
+
+    std::size_t body = 0;    ///< of Structure::all_bodies(), with the largest difference of places
+    double time = 0.;        ///< of this difference [s]
+    std::size_t row = -1;    ///< constraint with the largest difference of impulses; -1: none
+    bool is_place() const;   ///< the place exceeds its bound most
+    bool is_impulse() const; ///< the impulse exceeds its bound most
+  };
+
+  /**
+   * The data that compare a motion with the same motion in other steps. Use it where the steps of
+   * two runs differ, see StepAccuracy. Places and energies of groups of connected bodies are
+   * recorded at equal intervals of time. Impulses of constraints since the start are recorded at
+   * the ends of steps, as contacts are shorter than such an interval.
+   */
+  class MotionRecord
+  {
+  public:
+    /// Records @p n multiples of @p interval [s] after @p start. The arguments but @p start are
+    /// kept by reference.
+    MotionRecord(const Structure &structure, const Constraints &constraints,
+                 const ConnectedBodies &groups, const Reference &reference, const State &start,
+                 double interval, std::size_t n);
+
+    /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
+    void record(const State &state, const StepReport &report);
+
+    std::size_t n_samples() const { return n_recorded; }
+
+    /**
+     * Difference of this motion from another one, sample by sample. Impulses and energies jump at
+     * an impact. The bound of the places allows an impact to be early or late by the time in which
+     * the fastest place moves that far. Impulses and energies may hence have any value of the other
+     * motion within this time, or within an interval. Called by all ranks together.
+     */
+    MotionDifference difference(const MotionRecord &other) const;
+
+    /// Stores the data of all ranks. Called by all ranks together.
+    void save(OutputArchive &archive);
+    void load(InputArchive &archive);
+
+  private:
+    /// Of each group, sample after sample, the start first: kinetic, potential [J].
+    using Energies = std::vector<std::array<double, 2>>;
+    struct Sizes;
+
+    /// Places of each body, sample by sample [m].
+    using PlacesOfBodies = std::map<std::size_t, std::vector<double>>;
+    PlacesOfBodies places_of_bodies() const;
+    void add_speeds(const State &state);
+    void add_places(const State &state, double part);
+    void add_energies(const State &state);
+    double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
+    Sizes sizes() const;
+    void compare_places(const MotionRecord &other, const Sizes &size,
+                        MotionDifference &result) const;
+    void compare_energies(const Sizes &other, MotionDifference &result) const;
+
+    const Structure &structure;
+    const Constraints &constraints;
+    const ConnectedBodies &groups;
+    const Reference &reference;
+    const double begin, interval; ///< [s]
+    const std::size_t n;
+    std::size_t n_recorded = 0;
+
+    /// A DoF that is a displacement, and its group.
+    struct Place
+    {
+      std::size_t body;
+      unsigned int dof;
+      std::size_t group;
+    };
+    std::vector<Place> dofs; ///< body after body
+
+    /// A body and its range in the list of DoFs.
+    struct Body
+    {
+      std::size_t number, first, end;
+      bool has_inner; ///< some of its DoFs are multipliers of internal constraints
+    };
+    std::vector<Body> bodies;
+    std::vector<double> start_of_dofs; ///< [m]
+    BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
+
+    std::vector<double> speed; ///< of the groups, largest so far [m/s]
+    ImpulseRecord impulses;
+    std::vector<double> places; ///< of all DoFs, sample after sample [m]
+    Energies energies;          ///< shares of this rank
+    std::vector<double> work;
+  };
+} // namespace taut
+
+#endif
