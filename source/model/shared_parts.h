@@ -2,7 +2,7 @@
 #ifndef taut_shared_parts_h
 #define taut_shared_parts_h
 
-#include "base/kept.h"
+#include "base/reused_values.h"
 #include <taut/substructure/substructure.h>
 
 #include <memory>
@@ -26,9 +26,9 @@ namespace taut
    */
   struct SharedParts
   {
-    Kept<DropperForm> forms;
+    ReusedValues<DropperForm> forms;
     /// Wires keep no state (Substructure::save), so that runs can share them.
-    Kept<std::shared_ptr<Substructure>> wires;
+    ReusedValues<std::shared_ptr<Substructure>> wires;
 
     /// Call it when a run begins.
     void begin()

@@ -168,7 +168,7 @@ namespace taut
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       const double N = state.multiplier[first + i];
-      gap = std::min(gap, state.geometric_gap[first + i]);
+      gap = std::min(gap, state.distance[first + i]);
       if (!(N > 0.))
         continue;
       ++n_closed;
@@ -197,7 +197,7 @@ namespace taut
       append(place_of(contact.geometry, i, displacements[i]), places);
       append(displacements[i], moved);
       pressure.push_back(static_cast<float>(state.multiplier[first + i] / all[i].area));
-      gap.push_back(static_cast<float>(state.geometric_gap[first + i]));
+      gap.push_back(static_cast<float>(state.distance[first + i]));
     }
     contact.picture->set(VtuFile::positions, places);
     contact.picture->set(contact.displacement, moved);

@@ -26,7 +26,7 @@ namespace taut
     of_line.n_newton += now.n_newton - before.n_newton;
     for (std::size_t i = 0; i < n_step_parts; ++i)
       of_line.parts[i] += now.parts[i] - before.parts[i];
-    iterations += step.certificate.iterations;
+    iterations += step.residuals.iterations;
     before = now;
     if (time >= next - 1e-9 * interval)
       write_line();

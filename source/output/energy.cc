@@ -59,7 +59,7 @@ namespace taut
     total.kinetic = sums[0];
     total.strain = sums[1];
     for (std::size_t i = 0; i < start.constraints.size(); ++i)
-      total.links += start.constraints[i].spring.energy(start.state.link_springs[i].u);
+      total.links += start.constraints[i].spring.energy(start.state.springs[i].u);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
     has_begun = true;
@@ -210,7 +210,7 @@ namespace taut
     for (std::size_t i = 0; i < step.constraints.size(); ++i)
     {
       const ConstraintData &constraint = step.constraints[i];
-      const State::LinkSpring &spring = state.link_springs[i];
+      const State::Spring &spring = state.springs[i];
       total.links += constraint.spring.energy(spring.u);
       if (is_mean(step, i))
       {
@@ -234,7 +234,9 @@ namespace taut
       if (!constraint.spring.is_rigid())
         total.link_dampers +=
             constraint.spring.damping * .5 * (springs0[i].v + spring.v) * spring.du;
-      total.contacts += mean * (step.constraints.is_fixed(i) ? state.gap[i] - gap0[i] : spring.du);
+      total.contacts +=
+          mean *
+          (step.constraints.is_fixed(i) ? state.complementarity_gap[i] - gap0[i] : spring.du);
     }
   }
 
@@ -248,8 +250,8 @@ namespace taut
       P = CV = balance = step.structure.zero();
     A0 = state.A;
     N0 = state.multiplier;
-    gap0 = state.gap;
-    springs0 = state.link_springs;
+    gap0 = state.complementarity_gap;
+    springs0 = state.springs;
     const Constraints::Rows varying = step.constraints.varying_rows();
     terms0.resize(varying.size());
     for (std::size_t k = 0; k < terms0.size(); ++k)

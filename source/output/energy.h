@@ -78,7 +78,7 @@ namespace taut
     BodyVectors P, CV, balance, impulses; ///< of the last call
     BodyVectors P0, CV0, balance0, A0;    ///< of the call before
     std::vector<double> N0, gap0;
-    std::vector<State::LinkSpring> springs0;
+    std::vector<State::Spring> springs0;
     std::vector<std::vector<Term>> terms0; ///< of varying constraints
 
     /// Of one call, kept for their memory: forces of constraints; of one body its displacement U

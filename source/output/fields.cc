@@ -293,7 +293,7 @@ namespace taut
     {
       const std::size_t constraint = step.constraints.index_of_link(link);
       forces.push_back(static_cast<float>(step.state.multiplier[constraint]));
-      gaps.push_back(static_cast<float>(step.state.geometric_gap[constraint]));
+      gaps.push_back(static_cast<float>(step.state.distance[constraint]));
       opened.push_back(step.state.multiplier[constraint] == 0. ? 1.f : 0.f);
     }
     link_file->set(VtuFile::positions, places(ends));

@@ -109,7 +109,7 @@ namespace taut
         names = step.constraints.names(together);
       }
     }
-    rate = is_start ? step.constraints.motions(state.V) : state.gap_rate;
+    rate = is_start ? step.constraints.motions(state.V) : state.rate;
     force = state.multiplier;
     for (std::size_t i = 0; i < rate.size(); ++i)
     {

@@ -145,8 +145,7 @@ namespace taut
     if (structure.communicator().is_root())
       for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!constraints[i].spring.is_rigid())
-          result[groups.of_constraint(i)][1] +=
-              constraints[i].spring.energy(state.link_springs[i].u);
+          result[groups.of_constraint(i)][1] += constraints[i].spring.energy(state.springs[i].u);
   }
 
   void MotionRecord::record(const State &state, const StepReport &report)

@@ -131,17 +131,17 @@ namespace taut
                       [&](const std::size_t i) { return state.multiplier[i] != 0.; }))
         continue;
       said.insert(droppers.begin(), droppers.end());
-      const std::size_t nearest =
-          *std::min_element(droppers.begin(), droppers.end(),
-                            [&](const std::size_t a, const std::size_t b)
-                            { return state.geometric_gap[a] < state.geometric_gap[b]; });
+      const std::size_t nearest = *std::min_element(droppers.begin(), droppers.end(),
+                                                    [&](const std::size_t a, const std::size_t b) {
+                                                      return state.distance[a] < state.distance[b];
+                                                    });
       const Link &link = scene.links[rows[nearest].link];
       const bool is_one = droppers.size() == 1;
       result.push_back(to_text(
           std::setprecision(4),
           is_one ? "the only dropper" : to_text("all ", droppers.size(), " droppers"), " of wire '",
           scene.wires[w].name, is_one ? "' is" : "' are", " slack at the start, '", link.name,
-          is_one ? "'" : "' by the least", ", ", state.geometric_gap[nearest], " m",
+          is_one ? "'" : "' by the least", ", ", state.distance[nearest], " m",
           link.unstressed_length > 0. ? to_text(" at its length of ", link.unstressed_length, " m")
                                       : "",
           ": no force goes from wire to wire. Check their lengths [m], the heights of the wires "

@@ -82,7 +82,7 @@ namespace taut
   void Series::record_link(const StepView &step, const std::size_t row)
   {
     values.push_back(step.state.multiplier[row]);
-    values.push_back(step.state.geometric_gap[row]);
+    values.push_back(step.state.distance[row]);
     if (step.constraints[row].cone.may_open())
       values.push_back(step.state.multiplier[row] != 0.);
   }
@@ -96,7 +96,7 @@ namespace taut
     {
       const std::size_t row = step.constraints.index_of_link(link);
       force += state.multiplier[row];
-      gap = std::min(gap, state.geometric_gap[row]);
+      gap = std::min(gap, state.distance[row]);
     }
     values.push_back(
         step.constraints.position(step.constraints.index_of_link(contact.links[0]), state.time));
@@ -148,7 +148,7 @@ namespace taut
     if (!certificate || !(time >= next - 1e-9 * interval))
       return;
     next = time + interval;
-    const Certificate &found = step.certificate;
+    const Residuals &found = step.residuals;
     const ContactMeasures::Summary contacts = step.measures.summary();
     values = {found.complementarity,   found.balance, found.drift,        double(found.iterations),
               contacts.contact_energy, contacts.gap,  contacts.resolution};

@@ -123,25 +123,25 @@ namespace taut
     }
     supports.record(step.supports, dt, is_in_window());
     if (dt != 0.) // the start is no step
-      record_certificate(step);
+      record_residuals(step);
   }
 
-  void Statistics::record_certificate(const StepView &step)
+  void Statistics::record_residuals(const StepView &step)
   {
     ++n_steps;
-    n_iterations += step.certificate.iterations;
-    n_fallbacks += step.certificate.fallback;
-    if (step.certificate.complementarity > worst.complementarity)
+    n_iterations += step.residuals.iterations;
+    n_fallbacks += step.residuals.fallback;
+    if (step.residuals.complementarity > worst.complementarity)
     {
-      worst.complementarity = step.certificate.complementarity;
+      worst.complementarity = step.residuals.complementarity;
       worst_complementarity_time = step.state.time;
     }
-    if (step.certificate.balance > worst.balance)
+    if (step.residuals.balance > worst.balance)
     {
-      worst.balance = step.certificate.balance;
+      worst.balance = step.residuals.balance;
       worst_balance_time = step.state.time;
     }
-    worst.drift = std::max(worst.drift, step.certificate.drift);
+    worst.drift = std::max(worst.drift, step.residuals.drift);
   }
 
   template <typename Archive>

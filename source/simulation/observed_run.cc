@@ -169,7 +169,7 @@ namespace taut
             motion.links(),
             motion.reference(),
             state,
-            motion.certificate(),
+            motion.residuals(),
             motion.report(),
             motion.measures(),
             probe_values,

@@ -161,9 +161,9 @@ namespace taut
     const InitialState &start = motion->start();
     if (model.start == Start::equilibrium)
     {
-      log << "Static equilibrium: residual " << start.certificate.complementarity << " (links), "
-          << start.certificate.balance << " (balance), "
-          << counted(start.certificate.iterations, "active-set iteration") << '\n';
+      log << "Static equilibrium: residual " << start.residuals.complementarity << " (links), "
+          << start.residuals.balance << " (balance), "
+          << counted(start.residuals.iterations, "active-set iteration") << '\n';
       report_free_bodies();
       processes.agree(
           [&]
@@ -331,8 +331,7 @@ namespace taut
       const Coordinates &at = model.links[placed].to.kind == Attachment::Kind::ground
                                   ? places.from[placed]
                                   : places.to[placed];
-      file << links[i].name << at.x << at.y << at.z << start.multiplier[i]
-           << start.geometric_gap[i];
+      file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.distance[i];
       // A force makes droppers longer, other links shorter.
       const double elongation = link.elongation(start.multiplier[i]);
       // A rope is inclined: its ends come apart by more than it stretches.

@@ -32,8 +32,8 @@ namespace taut
   {
     if (!(accuracy > 0. && accuracy < 1.))
       throw UserError("--accuracy is a relative error between 0 and 1, such as 0.01");
-    for (const Dial &dial : runs.dials())
-      for (const Dial::Group &group : dial.groups)
+    for (const Refinement &refinement : runs.refinements())
+      for (const Refinement::Group &group : refinement.groups)
         study.parameter_lists.push_back({group.name, group.entries, {}, "", false});
     study.end_time = runs.parameters().end_time;
   }
@@ -68,12 +68,12 @@ namespace taut
   const StudySetting &AccuracySearch::search()
   {
     constexpr int most_finer = 4;
-    const std::vector<Dial> &dials = runs.dials();
-    Levels centre(dials.size(), 1);
+    const std::vector<Refinement> &refinements = runs.refinements();
+    Levels centre(refinements.size(), 1);
     const auto is_fine_enough = [&]()
     {
-      for (std::size_t d = 0; d < dials.size(); ++d)
-        if (centre[d] >= dials[d].n_coarser + most_finer)
+      for (std::size_t d = 0; d < refinements.size(); ++d)
+        if (centre[d] >= refinements[d].n_coarser + most_finer)
           return true;
       return false;
     };
@@ -99,7 +99,7 @@ namespace taut
     throw no_estimate("step or elements are sixteen times as fine as in the file");
   }
 
-  /// Whether the centre and its neighbours along each dial run.
+  /// Whether the centre and its neighbours along each refinement run.
   bool AccuracySearch::star_runs(const Levels &centre)
   {
     for (std::size_t d = 0; d < centre.size(); ++d)
@@ -118,19 +118,19 @@ namespace taut
     return true;
   }
 
-  /// The converged quantities: the corrections of all dials add up.
+  /// The converged quantities: the corrections of all refinements add up.
   void AccuracySearch::estimate(const Levels &centre)
   {
-    const std::size_t n = study.quantity_names.size(), n_dials = centre.size();
+    const std::size_t n = study.quantity_names.size(), n_refinements = centre.size();
     study.references.assign(n, {});
     step_limits.clear();
-    std::vector<std::vector<double>> change(n_dials, std::vector<double>(n));
+    std::vector<std::vector<double>> change(n_refinements, std::vector<double>(n));
     for (std::size_t i = 0; i < n; ++i)
     {
       const StudyQuantity own = runs.at(centre).run.quantities[i];
       QuantityReference &reference = study.references[i];
       reference.quantity = own;
-      for (std::size_t d = 0; d < n_dials; ++d)
+      for (std::size_t d = 0; d < n_refinements; ++d)
       {
         std::vector<StudyQuantity> line;
         Levels levels = centre;
@@ -150,8 +150,8 @@ namespace taut
       }
     }
     find_scales();
-    changes.assign(n_dials, 0.);
-    for (std::size_t d = 0; d < n_dials; ++d)
+    changes.assign(n_refinements, 0.);
+    for (std::size_t d = 0; d < n_refinements; ++d)
       for (std::size_t i = 0; i < n; ++i)
         changes[d] = std::max(changes[d], change[d][i] / study.references[i].scale);
   }
@@ -200,7 +200,7 @@ namespace taut
       study.settings.push_back(std::move(setting));
     }
     const ParameterList refined{"", {}, {}, "", true};
-    find_bounds(std::vector<ParameterList>(runs.dials().size(), refined), study.settings);
+    find_bounds(std::vector<ParameterList>(runs.refinements().size(), refined), study.settings);
   }
 
   /**
@@ -241,7 +241,7 @@ namespace taut
       std::vector<std::string> &values = study.settings[i++].values;
       values.clear();
       for (std::size_t d = 0; d < levels.size(); ++d)
-        for (const std::string &value : runs.dials()[d].values(levels[d]))
+        for (const std::string &value : runs.refinements()[d].values(levels[d]))
         {
           std::vector<std::string> &list = study.parameter_lists[values.size()].values;
           if (std::count(list.begin(), list.end(), value) == 0)

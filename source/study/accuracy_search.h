@@ -16,10 +16,11 @@ namespace taut
    * Finds step and mesh for an accuracy without a stored study. Take it for a scene that is new,
    * and Study to compare schemes.
    *
-   * The search starts from coarse values. It runs a centre, and the settings with one dial halved
-   * or doubled. Richardson extrapolation along each dial gives the converged quantities with their
-   * errors. A second scheme must come to the same values. As long as no setting is accurate enough,
-   * the dial with the largest error is refined. Entries Exact of section Study are not used.
+   * The search starts from coarse values. It runs a centre, and the settings with one refinement
+   * halved or doubled. Richardson extrapolation along each refinement gives the converged
+   * quantities with their errors. A second scheme must come to the same values. As long as no
+   * setting is accurate enough, the refinement with the largest error is refined. Entries Exact of
+   * section Study are not used.
    */
   class AccuracySearch
   {
@@ -60,7 +61,7 @@ namespace taut
     std::ostream &log;
     TrialRuns runs;
     std::vector<QuantityReference> step_limits; ///< of each quantity, at the mesh of the centre
-    std::vector<double> changes;                ///< relative, the largest along each dial
+    std::vector<double> changes;                ///< relative, the largest along each refinement
     std::string second_scheme, failure;
     StudyResult study;
   };

@@ -42,7 +42,7 @@ namespace taut
       Simulation simulation(*parameters, silent, Communicator(), &shared);
       simulation.stop_if(stop_asked);
       simulation.run();
-      return {quantities_of(simulation), simulation.statistics().worst_certificate()};
+      return {quantities_of(simulation), simulation.statistics().worst_residuals()};
     }
     catch (const EntryError &e)
     {

@@ -18,7 +18,7 @@ namespace taut
   struct CaseResult
   {
     std::vector<Statistics::NamedQuantity> quantities;
-    Certificate worst; ///< largest residuals of any step
+    Residuals worst; ///< largest residuals of any step
   };
 
   /**

@@ -62,7 +62,7 @@ namespace taut
       if (with_quantities)
         simulation.observe(recorder);
       simulation.run();
-      const Certificate &worst = recorder.worst_certificate();
+      const Residuals &worst = recorder.worst_residuals();
       return {with_quantities ? recorder.study_quantities() : std::vector<StudyQuantity>(),
               stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
               simulation.n_steps()};

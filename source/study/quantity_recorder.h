@@ -43,7 +43,7 @@ namespace taut
     /// The quantities, in the order of the study.
     std::vector<StudyQuantity> study_quantities() const;
 
-    const Certificate &worst_certificate() const { return statistics.worst_certificate(); }
+    const Residuals &worst_residuals() const { return statistics.worst_residuals(); }
 
   private:
     /// The source of a quantity.

@@ -22,7 +22,7 @@ namespace taut
       refuse("Time/End", "an accuracy is found from runs in time; take a later end");
     if (file_parameters.step_parameters.adaptive())
       refuse("Time/Step control", "a search compares fixed steps; set 'fixed'");
-    all_dials = find_dials(file_parameters.values());
+    all_refinements = find_refinements(file_parameters.values());
   }
 
   double TrialRuns::elapsed() const
@@ -40,11 +40,11 @@ namespace taut
   std::vector<std::string> TrialRuns::entries(const Levels &levels) const
   {
     std::vector<std::string> list = {"Time/Check steps=no"};
-    for (std::size_t d = 0; d < all_dials.size(); ++d)
+    for (std::size_t d = 0; d < all_refinements.size(); ++d)
     {
-      const std::vector<std::string> values = all_dials[d].values(levels[d]);
+      const std::vector<std::string> values = all_refinements[d].values(levels[d]);
       for (std::size_t g = 0; g < values.size(); ++g)
-        for (const std::string &entry : all_dials[d].groups[g].entries)
+        for (const std::string &entry : all_refinements[d].groups[g].entries)
           list.push_back(entry + "=" + values[g]);
     }
     return list;
@@ -58,7 +58,7 @@ namespace taut
     runner.stop_if([this]() { return ask(); });
     std::vector<Statistics::NamedQuantity> known;
     bool has_run = false;
-    for (Levels levels(all_dials.size(), 0); !has_run; ++levels[0])
+    for (Levels levels(all_refinements.size(), 0); !has_run; ++levels[0])
       try
       {
         known = runner.run(entries(levels)).quantities;
@@ -66,10 +66,10 @@ namespace taut
       }
       catch (const UserError &)
       {
-        if (levels[0] == all_dials[0].n_coarser)
+        if (levels[0] == all_refinements[0].n_coarser)
           throw;
         for (std::size_t d = 1; d < levels.size(); ++d)
-          levels[d] = std::min(levels[d] + 1, all_dials[d].n_coarser);
+          levels[d] = std::min(levels[d] + 1, all_refinements[d].n_coarser);
       }
     try
     {

@@ -2,8 +2,8 @@
 #ifndef taut_trial_runs_h
 #define taut_trial_runs_h
 
-#include "study/dials.h"
 #include "study/measured_run.h"
+#include "study/refinements.h"
 
 #include <chrono>
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace taut
 {
-  /// Runs a scene at levels of its dials, each once, without files and within a wall time.
+  /// Runs a scene at levels of its refinements, each once, without files and within a wall time.
   class TrialRuns
   {
   public:
-    using Levels = std::vector<int>; ///< of each dial
+    using Levels = std::vector<int>; ///< of each refinement
     struct Trial
     {
       MeasuredRun run;
@@ -43,7 +43,7 @@ namespace taut
     MeasuredRun with_scheme(const Levels &levels, const std::string &scheme) const;
 
     const Parameters &parameters() const { return file_parameters; }
-    const std::vector<Dial> &dials() const { return all_dials; }
+    const std::vector<Refinement> &refinements() const { return all_refinements; }
     const std::map<Levels, Trial> &all() const { return trials; }
 
     /// Wall time since the construction [s].
@@ -58,7 +58,7 @@ namespace taut
     std::vector<std::string> overrides;
     std::function<int()> stop_asked;
     Parameters file_parameters;
-    std::vector<Dial> all_dials;
+    std::vector<Refinement> all_refinements;
     std::map<Levels, Trial> trials;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   };

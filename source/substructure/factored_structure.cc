@@ -212,12 +212,12 @@ namespace taut
     }
     catch (const BodyNotHeld &)
     {
-      if (!take_apart(k, use_amplitudes))
+      if (!free_motions_apart(k, use_amplitudes))
         throw;
       return;
     }
     if (loss > (use_amplitudes ? largest_loss_beside_amplitudes : largest_loss) &&
-        take_apart(k, use_amplitudes))
+        free_motions_apart(k, use_amplitudes))
       return;
     check_digits(k, loss);
   }
@@ -225,7 +225,7 @@ namespace taut
   /// Returns false if the rigid body modes cannot be unknowns. Returns false, too, if the next
   /// iteration of Newton's method corrects their rounding. If only the representation of F forbids
   /// them, throws an error that names the remedy.
-  bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
+  bool FactoredStructure::free_motions_apart(const std::size_t k, const bool use_amplitudes)
   {
     const Substructure &body = bodies[k];
     if (!body.is_linear() || body.null_space().vectors.empty() || !set_rigid_body_modes(k))

@@ -10,7 +10,7 @@ namespace taut
   namespace
   {
     /// Relative residual of a law, in terms of its gap, that ends the iteration. Rounding may keep
-    /// it between both; the certificate of the step then shows it.
+    /// it between both; the residuals of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
     constexpr int most_iterations = 200;
 
@@ -244,7 +244,7 @@ namespace taut
 
   const MixedComplementaritySolution &
   ConstraintLaws::solve(MixedComplementarityProblem &problem, StepEquations &system,
-                        const StepCheck &check, Certificate &certificate, std::vector<double> &S,
+                        const StepCheck &check, Residuals &residuals, std::vector<double> &S,
                         std::vector<double> &shift)
   {
     std::vector<double> &gap = free_gap, &u = compression;
@@ -267,8 +267,8 @@ namespace taut
         problem.gap_scale[row.index] = scale[row.index] + std::fabs(shift[row.index]);
       }
       system.set_compliance(S);
-      solution = &system.find_multipliers(problem, check, certificate);
-      certificate.iterations = iterations += certificate.iterations;
+      solution = &system.find_multipliers(problem, check, residuals);
+      residuals.iterations = iterations += residuals.iterations;
       now.multiplier = solution->multiplier;
       now.gap = solution->gap;
       for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -285,7 +285,7 @@ namespace taut
       std::swap(last, now);
       set_compressions(last.gap, u);
     }
-    // An open constraint has its law at rest. The certificate measures the residuals of the others.
+    // An open constraint has its law at rest. The residuals measures the residuals of the others.
     for (const Row &row : rows)
       if (solution->multiplier[row.index] == 0. && !std::isinf(row.open))
       {

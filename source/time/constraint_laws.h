@@ -52,7 +52,7 @@ namespace taut
     /// Errors come from @p check. The result is valid until the next call.
     const MixedComplementaritySolution &solve(MixedComplementarityProblem &problem,
                                               StepEquations &system, const StepCheck &check,
-                                              Certificate &certificate, std::vector<double> &S,
+                                              Residuals &residuals, std::vector<double> &S,
                                               std::vector<double> &shift);
 
     /// Whether the spring of a constraint follows a law in this step.

@@ -87,7 +87,7 @@ namespace taut
     Force &f = forces[i];
     if (f.last <= f.end.force || !(constraints.distance_beyond(i, state.time) > 0.))
       return;
-    const State::LinkSpring &spring = state.link_springs[i];
+    const State::Spring &spring = state.springs[i];
     f.end = {state.time, f.last, constraints[i].spring.energy(spring.u - spring.du)};
   }
 
@@ -152,7 +152,8 @@ namespace taut
   {
     if (!constraints[i].spring.is_rigid())
       return;
-    const double gap = state.multiplier[i] > 0. ? std::fabs(state.gap[i]) : -state.gap[i];
+    const double gap = state.multiplier[i] > 0. ? std::fabs(state.complementarity_gap[i])
+                                                : -state.complementarity_gap[i];
     if (gap > found.gap)
     {
       found.gap = gap;
@@ -161,7 +162,7 @@ namespace taut
     // A condition on velocities leaves a gap of about the motion of a step.
     Force &force = forces[i];
     if (report.method.rules[i].is_on_velocity())
-      force.motion = std::max(force.motion, state.last_step * std::fabs(state.gap_rate[i]));
+      force.motion = std::max(force.motion, state.last_step * std::fabs(state.rate[i]));
     force.gap = std::max(force.gap, gap);
   }
 

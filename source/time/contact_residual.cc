@@ -26,7 +26,7 @@ namespace taut
                                             const ComplementarityOperator &F,
                                             std::vector<double> &scale) const
   {
-    PerKind most = {0., 0.};
+    ByKind most = {0., 0.};
     for (std::size_t i = 0; i < constraints.size(); ++i)
       most[constraints[i].rotational] =
           std::max(most[constraints[i].rotational],

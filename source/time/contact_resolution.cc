@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time/coupled_rows.h"
-#include "time/link_flexibilities.h"
+#include "time/row_flexibilities.h"
 
 #include "time/contact_resolution.h"
 #include "time/matrix_norms.h"
@@ -268,7 +268,7 @@ namespace taut
     const Constraints &constraints;
     std::vector<Row> &of;
     const double step; ///< [s]
-    LinkFlexibilities in_step, at_once;
+    RowFlexibilities in_step, at_once;
     const ConnectedBodies wholes; ///< bodies joined by rigid bilateral constraints
     std::vector<double> mass;     ///< of each group in wholes [kg]
     const std::vector<std::size_t> closed;

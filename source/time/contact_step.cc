@@ -61,7 +61,7 @@ namespace taut
       problem.cones.push_back(constraints[i].cone);
       reference_gap[i] += constraints[i].gap;
       if (constraints.slides(i))
-        gap_correction[i] = start.geometric_gap[i] - reference_gap[i] - motions[i];
+        gap_correction[i] = start.distance[i] - reference_gap[i] - motions[i];
       else if (!reference.gap.empty())
         reference_gap[i] = reference.gap[i];
     }
@@ -106,7 +106,7 @@ namespace taut
       problem.free_gap[i] = gap + motion[i] + of_spring;
       problem.gap_scale[i] = gap_scale(i, before, std::fabs(of_spring));
       if (constraints.slides(i))
-        convection[i] = gap - before.geometric_gap[i];
+        convection[i] = gap - before.distance[i];
       if (method.rules[i].is_on_velocity())
         set_velocity_condition(i, before);
     }
@@ -139,8 +139,7 @@ namespace taut
   {
     if (constraints.slides(i))
       return gap_of_place(i);
-    return constraints.turns(i) ? before.geometric_gap[i] + turning.offset(i)
-                                : before.geometric_gap[i];
+    return constraints.turns(i) ? before.distance[i] + turning.offset(i) : before.distance[i];
   }
 
   /// Scale of the rounding of a gap in this step. @p other is the size of its terms that are not
@@ -148,7 +147,7 @@ namespace taut
   double ContactStep::gap_scale(const std::size_t i, const State &before, const double other)
   {
     double scale = constraints.slides(i) ? std::fabs(constraints[i].gap) + terms_size[i]
-                                         : std::fabs(before.geometric_gap[i]);
+                                         : std::fabs(before.distance[i]);
     if (constraints.turns(i))
       scale += turning.distance(i);
     scale += motion_size[i];
@@ -172,12 +171,12 @@ namespace taut
     const double theta = 1. - method.c.alpha_f, step = method.length,
                  rebound = constraints[i].cone.restitution(method.c.restitution);
     problem.free_gap[i] = motion[i] - (1. - theta) * step * velocity[i] +
-                          theta * (convection[i] + rebound * step * before.gap_rate[i]);
+                          theta * (convection[i] + rebound * step * before.rate[i]);
     if (!of_prescribed.empty())
       problem.free_gap[i] += of_prescribed[i];
     if (!constraints[i].cone.may_open())
       return;
-    const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
+    const bool is_near = before.distance[i] + .5 * step * before.rate[i] <= 0.;
     problem.cones[i] = is_near || before.multiplier[i] > 0. ? constraints[i].cone : Cone::zero();
   }
 
@@ -189,11 +188,11 @@ namespace taut
     history[i] = 0.;
     if (!has_mean_spring(i) && !laws.has(i) && !(own.damping > 0.))
       return 0.;
-    const RowStates::LinkSpring &spring = before.link_springs[i];
+    const RowStates::Spring &spring = before.springs[i];
     const double theta = 1. - c.alpha_f, step = method.length,
                  known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
     if (has_mean_spring(i) && own.conserving)
-      laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.geometric_gap[i],
+      laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.distance[i],
                             2. * own.damping / step);
     else if (laws.has(i) && has_mean_spring(i))
       laws.begin_mean(i, spring.u, theta, own.damping / (theta * step));
@@ -213,11 +212,11 @@ namespace taut
   }
 
   void ContactStep::find_multipliers(StepEquations &system, const StepCheck &check,
-                                     Certificate &certificate, State &state)
+                                     Residuals &residuals, State &state)
   {
     const MixedComplementaritySolution &solution =
-        laws.empty() ? system.find_multipliers(problem, check, certificate)
-                     : laws.solve(problem, system, check, certificate, S, history);
+        laws.empty() ? system.find_multipliers(problem, check, residuals)
+                     : laws.solve(problem, system, check, residuals, S, history);
     const std::vector<double> &L = solution.multiplier;
     solved.multiplier = balanced = state.multiplier = L;
     solved.mode_amplitude = solution.mode_amplitude;
@@ -259,11 +258,11 @@ namespace taut
       if (method.rules[i].is_mean())
         report.work[i] = (1. - method.c.alpha_f) * impulses[i] * motion[i];
       largest.gaps[i] = std::max(largest.gaps[i], scale_of_step[i]);
-      state.geometric_gap[i] =
+      state.distance[i] =
           constraints.slides(i)
               ? gap_of_place(i)
-              : state.geometric_gap[i] + (constraints.turns(i) ? turning.increment(i) : motion[i]);
-      state.gap[i] = end_spring(i, state);
+              : state.distance[i] + (constraints.turns(i) ? turning.increment(i) : motion[i]);
+      state.complementarity_gap[i] = end_spring(i, state);
     }
   }
 
@@ -300,9 +299,8 @@ namespace taut
     }
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      rates_before[i] = state.gap_rate[i];
-      state.gap_rate[i] =
-          velocity[i] + (is_exact ? rate_of_place[i] : convection[i] / method.length);
+      rates_before[i] = state.rate[i];
+      state.rate[i] = velocity[i] + (is_exact ? rate_of_place[i] : convection[i] / method.length);
     }
   }
 
@@ -310,7 +308,7 @@ namespace taut
   {
     measure_velocities(state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      state.gap_rate[i] = velocity[i] + rate_of_place[i];
+      state.rate[i] = velocity[i] + rate_of_place[i];
   }
 
   /// Updates the spring in the state. Returns D, the gap including the spring.
@@ -320,8 +318,8 @@ namespace taut
     // value from its force.
     constexpr double small = 1e-4;
     const StepCoefficients &c = method.c;
-    RowStates::LinkSpring &spring = state.link_springs[i];
-    const double N = solved.multiplier[i], gap = state.geometric_gap[i],
+    RowStates::Spring &spring = state.springs[i];
+    const double N = solved.multiplier[i], gap = state.distance[i],
                  known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du,
                  known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
     double u = S[i] * N + history[i];
@@ -346,7 +344,7 @@ namespace taut
     const bool is_inconsistent =
         is_first && std::fabs(rates_before[i]) > rounding * velocity_size[i];
     return !is_inconsistent && constraints.turns(i) && constraints[i].spring.is_rigid() &&
-           state.geometric_gap[i] - turning.increment(i) <= rounding * turning.distance(i);
+           state.distance[i] - turning.increment(i) <= rounding * turning.distance(i);
   }
 
   double ContactStep::drift(const State &state) const
@@ -354,7 +352,7 @@ namespace taut
     double most = 0.;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (method.rules[i].is_on_velocity() && constraints[i].cone.is_free())
-        most = std::max(most, std::fabs(state.geometric_gap[i]));
+        most = std::max(most, std::fabs(state.distance[i]));
     return most;
   }
 
@@ -369,8 +367,8 @@ namespace taut
       system.set_modes(on_modes, remainder);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      remainder.free_gap[i] += state.gap[i];
-      remainder.gap_scale[i] += std::fabs(state.gap[i]) + terms_size[i];
+      remainder.free_gap[i] += state.complementarity_gap[i];
+      remainder.gap_scale[i] += std::fabs(state.complementarity_gap[i]) + terms_size[i];
       if (constraints.slides(i))
         remainder.gap_scale[i] += std::fabs(constraints[i].gap);
     }
@@ -382,17 +380,17 @@ namespace taut
     const std::vector<double> moved = constraints.motions(dU);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      for (double *const x : {&motion[i], &position[i], &state.geometric_gap[i]})
+      for (double *const x : {&motion[i], &position[i], &state.distance[i]})
         *x += moved[i];
       const double dN = correction.multiplier[i], du = S[i] * dN;
       for (double *const N : {&solved.multiplier[i], &balanced[i], &state.multiplier[i]})
         *N += dN;
-      RowStates::LinkSpring &spring = state.link_springs[i];
+      RowStates::Spring &spring = state.springs[i];
       spring.u += du;
       spring.du += du;
       spring.v += method.c.velocity * du;
       spring.a += method.c.acceleration * du;
-      state.gap[i] = state.geometric_gap[i] + spring.u;
+      state.complementarity_gap[i] = state.distance[i] + spring.u;
     }
     for (std::size_t k = 0; k < solved.mode_amplitude.size(); ++k)
       solved.mode_amplitude[k] += correction.mode_amplitude[k];
@@ -410,18 +408,18 @@ namespace taut
   {
     recomputed.multiplier = solved.multiplier;
     recomputed.mode_amplitude = solved.mode_amplitude;
-    recomputed.gap = state.gap;
+    recomputed.gap = state.complementarity_gap;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (has_mean_spring(i))
       {
         const double N = solved.multiplier[i], u = S[i] * N + history[i];
-        recomputed.gap[i] = state.geometric_gap[i] + u + laws.lack(i, u, N);
+        recomputed.gap[i] = state.distance[i] + u + laws.lack(i, u, N);
       }
       else if (method.rules[i].is_on_velocity())
       {
         const double rebound =
             constraints[i].cone.restitution(method.c.restitution) * rates_before[i];
-        recomputed.gap[i] = (1. - method.c.alpha_f) * method.length * (state.gap_rate[i] + rebound);
+        recomputed.gap[i] = (1. - method.c.alpha_f) * method.length * (state.rate[i] + rebound);
       }
   }
 
@@ -460,7 +458,7 @@ namespace taut
     for (const std::size_t i : constraints.fixed_rows())
     {
       largest.terms[i] = std::max(largest.terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
-      const double error = std::fabs(reference_gap[i] + position[i] - state.geometric_gap[i]),
+      const double error = std::fabs(reference_gap[i] + position[i] - state.distance[i]),
                    relative = error == 0. ? 0. : error / largest.terms[i];
       if (!(relative <= max) && !std::isnan(max))
       {
@@ -474,7 +472,7 @@ namespace taut
   /// Sizes of the terms of B^T U, if a displacement rounds with the largest one of its body.
   std::vector<double> ContactStep::body_terms(const BodyVectors &U) const
   {
-    std::vector<PerKind> size;
+    std::vector<ByKind> size;
     for (std::size_t k = 0; k < structure.size(); ++k)
       size.push_back(taut::largest(structure[k], U[k]));
     std::vector<double> terms(constraints.size(), 0.);

@@ -68,8 +68,8 @@ namespace taut
 
     /// Solves the problem for multipliers L with A dU = P^ + B L. state.multiplier becomes the
     /// force at the end of the step, or the mean force over the step. Errors come from @p check,
-    /// iterations go into @p certificate.
-    void find_multipliers(StepEquations &system, const StepCheck &check, Certificate &certificate,
+    /// iterations go into @p residuals.
+    void find_multipliers(StepEquations &system, const StepCheck &check, Residuals &residuals,
                           State &state);
 
     /// The problem of the step, after set_problem().

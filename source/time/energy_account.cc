@@ -50,7 +50,7 @@ namespace taut
       Row &row = rows[i];
       row.multiplier = start.multiplier[i];
       row.gap = start.gap[i] - constraints.distance_beyond(i, start.time);
-      row.u = start.link_springs[i].u;
+      row.u = start.springs[i].u;
       row.noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
       row.begin = start.time;
       if (constraints[i].cone.may_open())
@@ -154,7 +154,7 @@ namespace taut
       return -report.work[i];
     if (own.is_rigid())
       return 0.;
-    const RowStates::LinkSpring &spring = state.link_springs[i];
+    const RowStates::Spring &spring = state.springs[i];
     const double before = spring.u - spring.du;
     return own.law ? own.law->mean_force(before, spring.u) * spring.du
                    : .5 * own.stiffness * (spring.u * spring.u - before * before);
@@ -241,13 +241,13 @@ namespace taut
     // What a contact stores is lost where its wire ends, and not by the step.
     if (constraints.distance_beyond(i, state.time) > 0.)
       return 0.;
-    const double change = state.gap[i] - row.gap;
+    const double change = state.complementarity_gap[i] - row.gap;
     const bool is_mean = report.is_mean(i);
     if (is_mean && !constraints.slides(i))
     {
       if (constraint.spring.is_rigid())
         return report.work[i];
-      const State::LinkSpring &spring = state.link_springs[i];
+      const State::Spring &spring = state.springs[i];
       const double with_damper =
           report.work[i] + constraint.spring.energy(spring.u) - constraint.spring.energy(row.u);
       // A contact with a damper ends at zero force. The damper takes the remaining energy of the
@@ -280,8 +280,8 @@ namespace taut
   {
     Row &row = rows[i];
     // A closed elastic constraint moves with its spring. Rounding of the gap has no speed.
-    const double gap = state.gap[i] - constraints.distance_beyond(i, state.time);
-    const double moved = std::fabs(gap - row.gap) + std::fabs(state.link_springs[i].u - row.u),
+    const double gap = state.complementarity_gap[i] - constraints.distance_beyond(i, state.time);
+    const double moved = std::fabs(gap - row.gap) + std::fabs(state.springs[i].u - row.u),
                  N = state.multiplier[i], rate = std::max(moved, row.noise) / state.last_step;
     if (row.multiplier > 0. || N > 0.)
     {
@@ -315,7 +315,7 @@ namespace taut
     row.rate = rate;
     row.end = state.time;
     row.gap = gap;
-    row.u = state.link_springs[i].u;
+    row.u = state.springs[i].u;
     row.impulse = impulse_of(i);
   }
 
@@ -359,7 +359,7 @@ namespace taut
     }
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)
-      springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.link_springs[i].u);
+      springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.springs[i].u);
     for (std::size_t g = 0; g < n; ++g)
     {
       groups[g].kinetic = std::max(groups[g].kinetic, sums[g]);

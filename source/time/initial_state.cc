@@ -33,7 +33,7 @@ namespace taut
       const std::size_t n = constraints.size() - constraints.sliding_rows().size();
       constraints.keep_directions(result.reference.displacement, N);
       N.insert(N.begin() + n, constraints.size() - N.size(), 0.);
-      result.state.link_springs.resize(constraints.size());
+      result.state.springs.resize(constraints.size());
     }
 
     /// Checks the size of a vector at t = 0, and that its numbers are finite.
@@ -89,15 +89,15 @@ namespace taut
         size[i] += std::fabs(constraint.gap) + constraint.gap_size;
         if (constraints.turns(i))
           size[i] += norm(ends[constraints.turning_index(i)]);
-        if (!constraint.cone.may_open() || !(state.gap[i] < 0.) ||
-            !(-state.gap[i] <= rounding_of_start * size[i]))
+        if (!constraint.cone.may_open() || !(state.complementarity_gap[i] < 0.) ||
+            !(-state.complementarity_gap[i] <= rounding_of_start * size[i]))
           continue;
         if (result.reference.gap.empty())
           for (std::size_t j = 0; j < constraints.size(); ++j)
             result.reference.gap.push_back(constraints[j].gap);
-        state.geometric_gap[i] -= state.gap[i];
-        state.gap[i] = 0.;
-        result.reference.gap[i] = state.geometric_gap[i] - motion[i];
+        state.distance[i] -= state.complementarity_gap[i];
+        state.complementarity_gap[i] = 0.;
+        result.reference.gap[i] = state.distance[i] - motion[i];
       }
     }
 
@@ -123,48 +123,49 @@ namespace taut
                                     constraints.motions(result.reference.displacement),
                                 motion = constraints.motions(state.U),
                                 velocity = constraints.motions(state.V);
-      state.geometric_gap.resize(constraints.size());
-      state.gap.resize(constraints.size());
+      state.distance.resize(constraints.size());
+      state.complementarity_gap.resize(constraints.size());
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
-        state.geometric_gap[i] =
-            constraints.turns(i) ? constraints.turning(i).gap(ends[constraints.turning_index(i)])
-                                 : constraint.gap + reference_motion[i] + motion[i];
+        state.distance[i] = constraints.turns(i)
+                                ? constraints.turning(i).gap(ends[constraints.turning_index(i)])
+                                : constraint.gap + reference_motion[i] + motion[i];
         // A spring starts with the compression between its ends, and if compressed, at their speed.
         // Rigid ones have no compression.
         double u = constraint.spring.compression(state.multiplier[i]);
         if (start != Start::equilibrium && !constraint.spring.is_rigid())
         {
-          u = constraint.cone.project(-state.geometric_gap[i]);
+          u = constraint.cone.project(-state.distance[i]);
           const double v = constraint.cone.is_closed(u) ? -velocity[i] : 0.;
-          state.link_springs[i].v = v;
+          state.springs[i].v = v;
           state.multiplier[i] =
               constraint.cone.project(constraint.spring.force(u) + v * constraint.spring.damping);
         }
-        state.link_springs[i].u = u;
+        state.springs[i].u = u;
         // Rounding of the gap over a small compliance, or over a motion in a short step, would be a
         // force.
         if (start == Start::equilibrium && constraint.cone.is_closed(state.multiplier[i]))
-          state.geometric_gap[i] = -u;
+          state.distance[i] = -u;
         else if (start == Start::equilibrium)
-          state.geometric_gap[i] = std::max(0., state.geometric_gap[i]);
-        state.gap[i] = state.geometric_gap[i] + u;
+          state.distance[i] = std::max(0., state.distance[i]);
+        state.complementarity_gap[i] = state.distance[i] + u;
         if (constraints.turns(i) &&
             constraints.turning(i).vanishes(ends[constraints.turning_index(i)]) &&
-            !constraint.cone.rests_open(state.multiplier[i], state.gap[i]))
+            !constraint.cone.rests_open(state.multiplier[i], state.complementarity_gap[i]))
           throw EntryError(
               constraints.origin(i),
               message_of_meeting(constraint.name, 0.,
                                  constraints.ends(i, result.reference.displacement, state.U)));
       }
       if (start == Start::equilibrium)
-        result.reference.gap = state.geometric_gap;
+        result.reference.gap = state.distance;
       else
         close_rounded_gaps(structure, constraints, motion, ends, result);
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (start != Start::equilibrium && state.gap[i] < 0. && constraints[i].cone.may_open())
-          complain_about_penetration(constraints, i, state.gap[i]);
+        if (start != Start::equilibrium && state.complementarity_gap[i] < 0. &&
+            constraints[i].cone.may_open())
+          complain_about_penetration(constraints, i, state.complementarity_gap[i]);
     }
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
     /// closed: for numbers with five digits.
@@ -181,9 +182,9 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &joint = constraints[i];
-        const double gap = state.geometric_gap[i], terms = constraints.turns(i)
-                                                               ? constraints.turning(i).length
-                                                               : size[i] + std::fabs(joint.gap);
+        const double gap = state.distance[i], terms = constraints.turns(i)
+                                                          ? constraints.turning(i).length
+                                                          : size[i] + std::fabs(joint.gap);
         if (joint.cone.may_open() || !joint.spring.is_rigid() || constraints.slides(i) ||
             std::fabs(gap) <= closed * terms)
           continue;
@@ -212,7 +213,7 @@ namespace taut
       StaticState rest = static_equilibrium(structure, constraints, parameters, 0.);
       result.reference.displacement = std::move(rest.displacement);
       state.multiplier = std::move(rest.multiplier);
-      result.certificate = rest.certificate;
+      result.residuals = rest.residuals;
       result.repeated_joints = constraints.names(rest.repeated_joints);
     }
     if (start == Start::given)

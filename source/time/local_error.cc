@@ -49,7 +49,7 @@ namespace taut
   }
 
   /// Multipliers of internal constraints are no motions, and may be rounding.
-  PerKind LocalError::largest_of(const std::size_t k, std::vector<double> &x) const
+  ByKind LocalError::largest_of(const std::size_t k, std::vector<double> &x) const
   {
     if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
       for (const unsigned int dof : structure[k].dofs_without_mass())
@@ -60,7 +60,7 @@ namespace taut
   double LocalError::measure(const State &state, const StepMethod &method, const double step_before,
                              const BodyVectors &old_A)
   {
-    PerKind error = {0., 0.}, size = {0., 0.};
+    ByKind error = {0., 0.}, size = {0., 0.};
     std::array<std::vector<double>, 2> squares; // errors of elements: motions and impulses
     for (std::vector<double> &of_wholes : squares)
       of_wholes.assign(wholes.n_groups(), 0.);
@@ -76,14 +76,14 @@ namespace taut
       else
         for (std::vector<double> *const e : {&motion, &impulse})
         {
-          const PerKind all = largest_of(k, *e);
+          const ByKind all = largest_of(k, *e);
           for (int kind = 0; kind < 2; ++kind)
             error[kind] = std::max(error[kind], all[kind]);
         }
       motion = state.V_old[k];
-      const PerKind v = largest_of(k, motion);
+      const ByKind v = largest_of(k, motion);
       copy_displacement(reference, state, k, motion);
-      const PerKind u = largest_of(k, motion);
+      const ByKind u = largest_of(k, motion);
       for (int kind = 0; kind < 2; ++kind)
         size[kind] = std::max(size[kind], u[kind] + state.last_step * v[kind]);
     }

@@ -36,7 +36,7 @@ namespace taut
                    const BodyVectors &old_A);
 
     /// Largest displacements so far, which persist between steps [m, rad].
-    PerKind largest_motions = {0., 0.};
+    ByKind largest_motions = {0., 0.};
 
   private:
     struct OfStep
@@ -47,7 +47,7 @@ namespace taut
       const BodyVectors &old_A;
     };
     void set_error(const OfStep &step, std::size_t k);
-    PerKind largest_of(std::size_t k, std::vector<double> &x) const;
+    ByKind largest_of(std::size_t k, std::vector<double> &x) const;
     double square(std::size_t k, const std::vector<double> &x);
 
     const Structure &structure;

@@ -109,7 +109,7 @@ namespace taut
   }
 
   template <std::size_t n_vectors>
-  std::array<PerKind, n_vectors> Largest<n_vectors>::result()
+  std::array<ByKind, n_vectors> Largest<n_vectors>::result()
   {
     std::size_t n = lanes;
     if (lanes == 8 && period <= 2)
@@ -128,15 +128,15 @@ namespace taut
   template class Largest<1>;
   template class Largest<4>;
 
-  PerKind largest(const Substructure &body, const std::vector<double> &x)
+  ByKind largest(const Substructure &body, const std::vector<double> &x)
   {
     Largest<1> found(body);
     found.add({x.data()}, body.n_dofs());
     return found.result()[0];
   }
 
-  void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
-                  const PerKind &velocity, const std::string &when)
+  void check_size(const Substructure &body, const ByKind &force, const ByKind &displacement,
+                  const ByKind &velocity, const std::string &when)
   {
     for (int kind = 0; kind < 2; ++kind)
       if (!(force[kind] <= largest_number && displacement[kind] <= largest_number &&
@@ -177,9 +177,9 @@ namespace taut
     return result;
   }
 
-  KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)
+  RowSumNorm::RowSumNorm(const Substructure &body, const SymmetricMatrix &matrix)
   {
-    std::vector<PerKind> rows(body.n_dofs(), PerKind{0., 0.});
+    std::vector<ByKind> rows(body.n_dofs(), ByKind{0., 0.});
     matrix.visit(
         [&](unsigned int i, unsigned int j, double value)
         {
@@ -195,7 +195,7 @@ namespace taut
         sums[body.kind(i)][c] = std::max(sums[body.kind(i)][c], rows[i][c]);
   }
 
-  PerKind KindNorm::times(const PerKind &x) const
+  ByKind RowSumNorm::times(const ByKind &x) const
   {
     return {sums[0][0] * x[0] + sums[0][1] * x[1], sums[1][0] * x[0] + sums[1][1] * x[1]};
   }

@@ -11,7 +11,7 @@
 namespace taut
 {
   /// One number for displacements, one for slopes and rotations: their units differ.
-  using PerKind = std::array<double, 2>;
+  using ByKind = std::array<double, 2>;
 
   /// Largest absolute entries of several vectors of one substructure, read together in pieces;
   /// not-a-number if an entry is.
@@ -25,7 +25,7 @@ namespace taut
     void add(const std::array<const double *, n_vectors> &x, std::size_t n);
 
     /// To be called once, after the last piece.
-    std::array<PerKind, n_vectors> result();
+    std::array<ByKind, n_vectors> result();
 
   private:
     // Independent lanes compare in parallel. A comparison loses not-a-number, a sum keeps it.
@@ -38,12 +38,12 @@ namespace taut
     const Substructure &body;
     const std::size_t period, lanes; ///< of kinds; a multiple of it, or 0: no lanes
     Lanes largest, sums;
-    std::array<PerKind, n_vectors> others = {};
+    std::array<ByKind, n_vectors> others = {};
   };
 
   /// Largest absolute entries of a vector of a substructure; not-a-number if an entry is. Entries
   /// of @p x beyond its DoFs are ignored.
-  PerKind largest(const Substructure &body, const std::vector<double> &x);
+  ByKind largest(const Substructure &body, const std::vector<double> &x);
 
   /// The largest entry on the diagonal; 0 if none is positive.
   double largest_on_diagonal(const SymmetricMatrix &matrix);
@@ -54,8 +54,8 @@ namespace taut
 
   /// Throws an EntryError on the section of the body if one of the largest entries exceeds
   /// largest_number. @p when begins the message.
-  void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
-                  const PerKind &velocity, const std::string &when);
+  void check_size(const Substructure &body, const ByKind &force, const ByKind &displacement,
+                  const ByKind &velocity, const std::string &when);
 
   /// Mass of each body of this rank in translation, e . M e with e = 1 for displacements and 0 for
   /// slopes. A body with several displacements a node counts that many times its mass [kg].
@@ -63,16 +63,16 @@ namespace taut
 
   /// Largest absolute row sums of a matrix by kind of row and column, for free DoFs only. With the
   /// largest entries of x they bound |A| |x|.
-  class KindNorm
+  class RowSumNorm
   {
   public:
-    KindNorm(const Substructure &body, const SymmetricMatrix &matrix);
+    RowSumNorm(const Substructure &body, const SymmetricMatrix &matrix);
 
     /// Upper bound of |A| |x| for each kind of row.
-    PerKind times(const PerKind &x) const;
+    ByKind times(const ByKind &x) const;
 
   private:
-    std::array<PerKind, 2> sums;
+    std::array<ByKind, 2> sums;
   };
 } // namespace taut
 

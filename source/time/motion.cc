@@ -28,17 +28,17 @@ namespace taut
       double time = 0., last_step = 0., step_before = 0.;
       long n_in_segment = 0, n_steps = 0;
       RowStates rows;
-      Certificate certificate;
+      Residuals residuals;
       StepReport report;
       std::vector<double> kinetic_energies;
-      PerKind motion;
+      ByKind motion;
       ContactStep::Sizes sizes;
       std::vector<std::vector<double>> courses;
       std::vector<double> rates;
     };
 
     State state;
-    Certificate certificate;
+    Residuals residuals;
     const std::vector<char> quasi_static; ///< rows on DoFs without mass and damping
     StepMethod method;
     bool is_prepared = false; ///< the other parts, for the method
@@ -140,9 +140,9 @@ namespace taut
     return parts ? parts->state : initial.state;
   }
 
-  const Certificate &Motion::certificate() const
+  const Residuals &Motion::residuals() const
   {
-    return has_moved() ? parts->certificate : initial.certificate;
+    return has_moved() ? parts->residuals : initial.residuals;
   }
 
   const StepReport &Motion::report() const
@@ -249,7 +249,7 @@ namespace taut
     if (!starts_itself)
       return;
     structure.communicator().agree([this] { start_balance(); });
-    parts->state.gap_rate = constraints.motions(parts->state.V);
+    parts->state.rate = constraints.motions(parts->state.V);
   }
 
   /// Sets r = P + B N - C V - K U at the start, where no scheme needs forces of rigid constraints.
@@ -347,7 +347,7 @@ namespace taut
     b.step_before = p.step_before;
     b.n_in_segment = p.n_in_segment;
     b.n_steps = p.n_steps;
-    b.certificate = p.certificate;
+    b.residuals = p.residuals;
     b.report = p.step.report();
     b.kinetic_energies = energy.kinetic_energies();
     b.motion = p.errors.largest_motions;
@@ -371,7 +371,7 @@ namespace taut
     p.step_before = b.step_before;
     p.n_in_segment = b.n_in_segment;
     p.n_steps = b.n_steps;
-    p.certificate = b.certificate;
+    p.residuals = b.residuals;
     p.step.report() = b.report;
     energy.set_kinetic_energies(b.kinetic_energies);
     p.errors.largest_motions = b.motion;
@@ -402,7 +402,7 @@ namespace taut
   void Motion::step_on()
   {
     Parts &p = *parts;
-    p.certificate = {};
+    p.residuals = {};
     const double before = p.state.last_step;
     const TimeIntegrator &scheme = before == 0. ? *first_scheme : *integrator;
     const StepCoefficients c = before == 0. || before == p.length
@@ -443,19 +443,19 @@ namespace taut
     costs().lap(StepPart::moving_rows);
   }
 
-  /// Finds the new state and its certificate.
+  /// Finds the new state and its residuals.
   void Motion::solve()
   {
     Parts &p = *parts;
     if (is_linear())
     {
       p.step.set_loads(p.state);
-      p.step.find_increments(p.state, p.certificate);
+      p.step.find_increments(p.state, p.residuals);
     }
     else
-      p.nonlinear.find_increments(p.step, p.state, p.certificate);
-    p.step.accept(p.state, p.certificate);
-    p.step.certify(p.state, p.certificate);
+      p.nonlinear.find_increments(p.step, p.state, p.residuals);
+    p.step.accept(p.state, p.residuals);
+    p.step.certify(p.state, p.residuals);
     structure.communicator().agree([&] { p.nonlinear.bodies().set_own_force(p.state); });
     if (!p.nonlinear.constraints().empty())
     {
@@ -485,12 +485,12 @@ namespace taut
           of_rates =
               p.projection->project(contacts, p.state, p.step.equations().interface().matrix());
         });
-    if (!(of_rates.largest <= p.certificate.complementarity))
+    if (!(of_rates.largest <= p.residuals.complementarity))
     {
-      p.certificate.complementarity = of_rates.largest;
-      p.certificate.worst_constraint = of_rates.worst;
+      p.residuals.complementarity = of_rates.largest;
+      p.residuals.worst_constraint = of_rates.worst;
     }
-    p.step.check().check_constraints(p.certificate);
+    p.step.check().check_constraints(p.residuals);
     StepReport &report = p.step.report();
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
@@ -549,7 +549,7 @@ namespace taut
   void Motion::store(Archive &archive)
   {
     Parts &p = *parts;
-    archive &p.state &p.certificate &p.step.report() & p.method.c;
+    archive &p.state &p.residuals &p.step.report() & p.method.c;
     ContactStep::Sizes sizes = p.step.contacts().largest_sizes();
     std::vector<std::vector<double>> courses = constraints.courses();
     archive &sizes &courses;

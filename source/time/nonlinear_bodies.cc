@@ -20,11 +20,11 @@ namespace taut
     constexpr double first_shift = 1e-10, growth_of_shift = 30.;
   } // namespace
 
-  PerKind significant_part(const Substructure &body, const PerKind &largest_force)
+  ByKind significant_part(const Substructure &body, const ByKind &largest_force)
   {
     // The solution rounds, too.
     constexpr double of_all = 4.;
-    PerKind result = largest_force;
+    ByKind result = largest_force;
     for (int kind = 0; kind < 2; ++kind)
       result[kind] = result[kind] <= of_all * body.rounding_of_force(kind) ? 0. : result[kind];
     return result;
@@ -125,7 +125,7 @@ namespace taut
                   found.add({difference, dU.data() + begin, unbalanced, whole}, end - begin);
                 });
     const auto [change, size, unbalanced, force] = found.result();
-    const PerKind lack = significant_part(body, unbalanced);
+    const ByKind lack = significant_part(body, unbalanced);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {

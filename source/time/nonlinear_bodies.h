@@ -16,7 +16,7 @@ namespace taut
 {
   /// Largest entries of a force on a body, or 0 below the rounding of its internal force, see
   /// Substructure::rounding_of_force() [N, N m].
-  PerKind significant_part(const Substructure &body, const PerKind &largest_force);
+  ByKind significant_part(const Substructure &body, const ByKind &largest_force);
 
   /**
    * The bodies of this rank with an internal force f other than K U, through one step. Their f at

@@ -104,8 +104,8 @@ namespace taut
   class NonlinearStep::Iterations : public NewtonProblem
   {
   public:
-    Iterations(NonlinearStep &own, Step &step, State &state, Certificate &certificate)
-        : own(own), step(step), state(state), certificate(certificate)
+    Iterations(NonlinearStep &own, Step &step, State &state, Residuals &residuals)
+        : own(own), step(step), state(state), residuals(residuals)
     {
     }
 
@@ -136,7 +136,7 @@ namespace taut
         for (std::size_t i = 0; i < P[k].size(); ++i)
           P[k][i] += own.nonlinear.remainder(k)[i];
       state.multiplier = own.multiplier;
-      step.find_increments(state, certificate);
+      step.find_increments(state, residuals);
       ++own.iterations;
       ++n;
       before = change;
@@ -174,15 +174,15 @@ namespace taut
     NonlinearStep &own;
     Step &step;
     State &state;
-    Certificate &certificate;
+    Residuals &residuals;
     int n = 0;
     double change = 0., before = 0.;
   };
 
-  void NonlinearStep::find_increments(Step &step, State &state, Certificate &certificate)
+  void NonlinearStep::find_increments(Step &step, State &state, Residuals &residuals)
   {
     const NewtonSearch search(limits_of_step, most_in_step);
-    Iterations iterations_of_step(*this, step, state, certificate);
+    Iterations iterations_of_step(*this, step, state, residuals);
     if (search.find(iterations_of_step))
       return;
     state.multiplier = multiplier;

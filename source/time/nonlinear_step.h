@@ -40,7 +40,7 @@ namespace taut
 
     /// Finds the increments of a step from @p state, with the tangent of a step before while that
     /// pays; the state gets the multipliers. Throws UserError if the iterations do not converge.
-    void find_increments(Step &step, State &state, Certificate &certificate);
+    void find_increments(Step &step, State &state, Residuals &residuals);
 
     NonlinearBodies &bodies() { return nonlinear; }
     const TurningConstraints &constraints() const { return turning; }

@@ -180,7 +180,7 @@ namespace taut
           return true;
         if (!stays(*step, state))
           return false;
-        state.certificate = step->certify();
+        state.residuals = step->certify();
         turning.finish(state);
         return is_stable();
       }
@@ -226,14 +226,14 @@ namespace taut
       double relative_change(const FactoredStructure &bodies, const BodyVectors &from,
                              const BodyVectors &to)
       {
-        PerKind moved = {0., 0.}, size = {0., 0.}, lack = {0., 0.}, force = {0., 0.};
+        ByKind moved = {0., 0.}, size = {0., 0.}, lack = {0., 0.}, force = {0., 0.};
         std::vector<double> difference, product;
         for (std::size_t k = 0; k < structure.size(); ++k)
         {
           difference = to[k];
           for (std::size_t i = 0; i < difference.size(); ++i)
             difference[i] -= from[k][i];
-          const PerKind own = largest(structure[k], difference);
+          const ByKind own = largest(structure[k], difference);
           motion_of_body[structure.number(k)] = own[0];
           add_largest(own, moved);
           add_largest(largest(structure[k], to[k]), size);
@@ -266,7 +266,7 @@ namespace taut
         return result;
       }
 
-      static void add_largest(const PerKind &own, PerKind &all)
+      static void add_largest(const ByKind &own, ByKind &all)
       {
         for (int kind = 0; kind < 2; ++kind)
           all[kind] = std::isnan(own[kind]) ? std::numeric_limits<double>::infinity()
@@ -370,7 +370,7 @@ namespace taut
       return NonlinearEquilibrium(structure, constraints, parameters, t).find();
     StaticStep step(structure, constraints, parameters, t, structure.zero());
     StaticState state = step.solve();
-    state.certificate = step.certify();
+    state.residuals = step.certify();
     return state;
   }
 } // namespace taut

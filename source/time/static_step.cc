@@ -56,13 +56,13 @@ namespace taut
                 KU[i] -= undeformed.force[k][i];
             }
           });
-      state.geometric_gap = constraints.motions(U);
+      state.distance = constraints.motions(U);
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        state.geometric_gap[i] += constraints[i].gap;
-        state.link_springs[i].u = std::max(0., -state.geometric_gap[i]);
+        state.distance[i] += constraints[i].gap;
+        state.springs[i].u = std::max(0., -state.distance[i]);
       }
-      state.gap = state.geometric_gap;
+      state.complementarity_gap = state.distance;
       return state;
     }
   } // namespace
@@ -87,16 +87,19 @@ namespace taut
     find_increments();
     step.accept(state);
     refine();
-    return {state.U,   state.multiplier,
-            state.gap, state.geometric_gap,
-            {},        repeated_rows().all_partners()};
+    return {state.U,
+            state.multiplier,
+            state.complementarity_gap,
+            state.distance,
+            {},
+            repeated_rows().all_partners()};
   }
 
   void StaticStep::find_increments()
   {
     try
     {
-      step.find_increments(state, certificate);
+      step.find_increments(state, residuals);
     }
     catch (const BodyNotHeld &e)
     {
@@ -126,8 +129,8 @@ namespace taut
     double largest = 0.;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (step.contacts().applied().closed[i])
-        largest =
-            std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
+        largest = std::max(largest, relative(state.complementarity_gap[i],
+                                             size[i] + std::fabs(constraints[i].gap)));
     const std::vector<LinearForm> &G = step.contacts().problem_of_step().null_space;
     const std::vector<double> &load = step.contacts().problem_of_step().null_space_load;
     for (std::size_t m = 0; m < G.size(); ++m)
@@ -184,7 +187,8 @@ namespace taut
     MixedComplementarityProblem unit = contacts.problem_of_step();
     std::vector<std::size_t> closed;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (contacts.applied().closed[i] || std::fabs(state.gap[i]) <= touching * unit.gap_scale[i])
+      if (contacts.applied().closed[i] ||
+          std::fabs(state.complementarity_gap[i]) <= touching * unit.gap_scale[i])
         closed.push_back(i);
     unit.gap_scale.clear();
     std::fill(unit.null_space_load.begin(), unit.null_space_load.end(), 0.);
@@ -211,10 +215,10 @@ namespace taut
     return true;
   }
 
-  Certificate StaticStep::certify()
+  Residuals StaticStep::certify()
   {
-    step.measure_balance(state, certificate);
-    step.certify(state, certificate);
-    return certificate;
+    step.measure_balance(state, residuals);
+    step.certify(state, residuals);
+    return residuals;
   }
 } // namespace taut

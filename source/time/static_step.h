@@ -24,8 +24,8 @@ namespace taut
     const std::vector<char> &closed() const { return step.contacts().applied().closed; }
     void start_from(const std::vector<char> &rows) { step.equations().start_from(rows); }
 
-    /// After solve(): the certificate of its result.
-    Certificate certify();
+    /// After solve(): the residuals of its result.
+    Residuals certify();
 
     /// True if all tangents are those of the bodies and positive definite.
     bool has_own_tangents() const { return step.equations().has_own_tangents(); }
@@ -60,7 +60,7 @@ namespace taut
     const TurningConstraints none;
     Step step;
     BodyVectors P; ///< P^ of the step
-    Certificate certificate;
+    Residuals residuals;
   };
 } // namespace taut
 

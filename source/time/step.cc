@@ -32,9 +32,9 @@ namespace taut
     kept.push_back(make_equations());
   }
 
-  Step::Kept Step::make_equations() const
+  Step::ReusedValues Step::make_equations() const
   {
-    Kept result{{}, std::make_unique<StepEquations>(structure, constraints, parameters)};
+    ReusedValues result{{}, std::make_unique<StepEquations>(structure, constraints, parameters)};
     if (!bodies.indices().empty())
       result.equations->set_nonlinear(bodies.indices(),
                                       [this](const std::size_t k, const int attempt)
@@ -57,7 +57,7 @@ namespace taut
     const StepCoefficients &c = method.c;
     own_contacts.prepare();
     const std::vector<double> &S = own_contacts.compliance();
-    const auto is_for = [&](const Kept &one) { return one.is_prepared && one.c == c; };
+    const auto is_for = [&](const ReusedValues &one) { return one.is_prepared && one.c == c; };
     const std::size_t most = most_kept();
     auto found = most > 1 ? std::find_if(kept.begin(), kept.end(), is_for) : kept.end();
     const bool is_known = found != kept.end(), goes_on = most > 1 && kept.front().is_prepared;
@@ -88,7 +88,7 @@ namespace taut
   InterfaceStatistics Step::interface_statistics() const
   {
     InterfaceStatistics result = earlier;
-    for (const Kept &one : kept)
+    for (const ReusedValues &one : kept)
       result += one.equations->interface().statistics();
     return result;
   }
@@ -102,16 +102,16 @@ namespace taut
     own_costs.lap(StepPart::loads);
   }
 
-  void Step::find_increments(State &state, Certificate &certificate)
+  void Step::find_increments(State &state, Residuals &residuals)
   {
     own_contacts.set_problem(state, equations(), own_history.loads(), own_history.prescribed());
     own_costs.lap(StepPart::free_gaps);
     if (constraints.size() > 0 || equations().has_modes())
     {
-      const Certificate before = certificate;
-      own_contacts.find_multipliers(equations(), own_check, certificate, state);
-      certificate.iterations += before.iterations;
-      certificate.fallback = certificate.fallback || before.fallback;
+      const Residuals before = residuals;
+      own_contacts.find_multipliers(equations(), own_check, residuals, state);
+      residuals.iterations += before.iterations;
+      residuals.fallback = residuals.fallback || before.fallback;
     }
     own_costs.lap(StepPart::contacts);
     equations().find_increments(own_contacts.applied().multiplier,
@@ -127,25 +127,24 @@ namespace taut
     own_contacts.update(state, own_report);
   }
 
-  void Step::accept(State &state, Certificate &certificate)
+  void Step::accept(State &state, Residuals &residuals)
   {
     own_report.method = method;
     own_report.gains.clear();
     own_history.exchange(state);
-    measure(state, certificate,
+    measure(state, residuals,
             [&](const std::size_t k, const std::size_t begin, const std::size_t end)
             { own_history.accept(k, begin, end, state); });
     own_contacts.update(state, own_report);
     own_costs.lap(StepPart::state);
   }
 
-  void Step::measure_balance(State &state, Certificate &certificate)
+  void Step::measure_balance(State &state, Residuals &residuals)
   {
-    measure(state, certificate, {});
+    measure(state, residuals, {});
   }
 
-  void Step::measure(State &state, Certificate &certificate,
-                     const BalanceCertificate::SetRows &rows)
+  void Step::measure(State &state, Residuals &residuals, const BalanceResidual::SetRows &rows)
   {
     structure.communicator().agree(
         [&]
@@ -157,7 +156,7 @@ namespace taut
           if (!method.c.is_at_rest())
             own_history.prescribed().impose_velocities(state);
         });
-    certificate.balance = structure.communicator().max(own_balance.residual());
+    residuals.balance = structure.communicator().max(own_balance.residual());
   }
 
   bool Step::correct(State &state, const BodyVectors &on_modes)
@@ -184,19 +183,19 @@ namespace taut
     return correct(state, own_history.loads());
   }
 
-  void Step::certify(State &state, Certificate &certificate)
+  void Step::certify(State &state, Residuals &residuals)
   {
     for (int refinements = 0;
-         certificate.balance > refined_balance && refinements < most_repetitions && refine(state);
+         residuals.balance > refined_balance && refinements < most_repetitions && refine(state);
          ++refinements)
-      measure_balance(state, certificate);
-    certificate.worst_body = own_balance.worst_body();
-    certificate.complementarity =
-        own_contacts.residual(state, equations(), certificate.worst_constraint);
-    certificate.drift = own_contacts.drift(state);
-    own_check.check_constraints(certificate,
-                                equations().repeated_rows().partners(certificate.worst_constraint));
-    own_check.check_balance(certificate, own_balance.residual());
-    own_costs.lap(StepPart::certificate);
+      measure_balance(state, residuals);
+    residuals.worst_body = own_balance.worst_body();
+    residuals.complementarity =
+        own_contacts.residual(state, equations(), residuals.worst_constraint);
+    residuals.drift = own_contacts.drift(state);
+    own_check.check_constraints(residuals,
+                                equations().repeated_rows().partners(residuals.worst_constraint));
+    own_check.check_balance(residuals, own_balance.residual());
+    own_costs.lap(StepPart::residuals);
   }
 } // namespace taut

@@ -2,12 +2,12 @@
 #ifndef taut_step_h
 #define taut_step_h
 
-#include "time/balance_certificate.h"
+#include "time/balance_residual.h"
+#include "time/body_step.h"
 #include "time/contact_step.h"
 #include "time/step_check.h"
 #include "time/step_equations.h"
-#include "time/step_history.h"
-#include <taut/time/certificate.h>
+#include <taut/time/residuals.h>
 #include <taut/time/step_costs.h>
 
 #include <memory>
@@ -18,10 +18,10 @@ namespace taut
   /**
    * One step of all bodies and constraints, in time or at rest:
    *
-   *     set_loads()        P^_k                               StepHistory
+   *     set_loads()        P^_k                               BodyStep
    *     find_increments()  N, and A_k dU_k = P^_k + B_k N     ContactStep, StepEquations
-   *     accept()           U, V, A, r, and gaps               StepHistory, ContactStep
-   *     certify()          residuals of both, once more       BalanceCertificate, ContactStep
+   *     accept()           U, V, A, r, and gaps               BodyStep, ContactStep
+   *     certify()          residuals of both, once more       BalanceResidual, ContactStep
    *                        with the residual if it is large
    *
    * Motion takes steps in time, by the method of a scheme. StaticStep takes steps of a search of an
@@ -47,17 +47,17 @@ namespace taut
     /// Sets history().loads() to P^ of a step from the state @p before to its time.
     void set_loads(State &before);
 
-    /// Finds N, and history().increments() from P^. Counts iterations in @p certificate.
-    void find_increments(State &state, Certificate &certificate);
+    /// Finds N, and history().increments() from P^. Counts iterations in @p residuals.
+    void find_increments(State &state, Residuals &residuals);
 
     /// Sets displacements, velocities, accelerations and gaps at the end of the step.
     void accept(State &state);
 
     /// The same, and K U, the balance r, and its residual.
-    void accept(State &state, Certificate &certificate);
+    void accept(State &state, Residuals &residuals);
 
-    /// Sets K U and the balance of a state, and its residual in @p certificate.
-    void measure_balance(State &state, Certificate &certificate);
+    /// Sets K U and the balance of a state, and its residual in @p residuals.
+    void measure_balance(State &state, Residuals &residuals);
 
     /// Solves for the forces in history().loads() beside those of the step, and for what closed
     /// constraints lack, and adds the answer to the state. @p on_modes are the same forces for the
@@ -66,8 +66,8 @@ namespace taut
     bool correct(State &state, const BodyVectors &on_modes);
 
     /// Certifies an accepted step whose balance is measured; repeats a step that lost digits.
-    /// Throws UserError if the certificate exceeds the contact tolerance.
-    void certify(State &state, Certificate &certificate);
+    /// Throws UserError if the residuals exceeds the contact tolerance.
+    void certify(State &state, Residuals &residuals);
 
     StepEquations &equations() { return *kept.front().equations; }
     const StepEquations &equations() const { return *kept.front().equations; }
@@ -75,9 +75,9 @@ namespace taut
     const ContactStep &contacts() const { return own_contacts; }
     StepReport &report() { return own_report; }
     const StepReport &report() const { return own_report; }
-    StepHistory &history() { return own_history; }
-    const StepHistory &history() const { return own_history; }
-    const BalanceCertificate &balance() const { return own_balance; }
+    BodyStep &history() { return own_history; }
+    const BodyStep &history() const { return own_history; }
+    const BalanceResidual &balance() const { return own_balance; }
     StepCheck &check() { return own_check; }
     StepCosts &costs() { return own_costs; }
     const StepCosts &costs() const { return own_costs; }
@@ -87,16 +87,16 @@ namespace taut
 
   private:
     /// Equations with the coefficients that they are prepared for.
-    struct Kept
+    struct ReusedValues
     {
       StepCoefficients c;
       std::unique_ptr<StepEquations> equations;
       bool is_prepared = false;
     };
 
-    Kept make_equations() const;
+    ReusedValues make_equations() const;
     std::size_t most_kept() const;
-    void measure(State &state, Certificate &certificate, const BalanceCertificate::SetRows &rows);
+    void measure(State &state, Residuals &residuals, const BalanceResidual::SetRows &rows);
     bool refine(State &state);
 
     const Structure &structure;
@@ -105,11 +105,11 @@ namespace taut
     const StepMethod &method;
     const NonlinearBodies &bodies;
     const TurningConstraints &turning;
-    std::vector<Kept> kept;      ///< the last ones first
-    InterfaceStatistics earlier; ///< statistics of equations before reset()
+    std::vector<ReusedValues> kept; ///< the last ones first
+    InterfaceStatistics earlier;    ///< statistics of equations before reset()
     ContactStep own_contacts;
-    StepHistory own_history;
-    BalanceCertificate own_balance;
+    BodyStep own_history;
+    BalanceResidual own_balance;
     StepCheck own_check;
     StepReport own_report;
     StepCosts own_costs;

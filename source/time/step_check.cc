@@ -54,32 +54,32 @@ namespace taut
          rows.empty() ? "" : constraints.origin(rows.front()));
   }
 
-  void StepCheck::check_constraints(const Certificate &certificate,
+  void StepCheck::check_constraints(const Residuals &residuals,
                                     const std::vector<std::size_t> &partners) const
   {
-    if (certificate.complementarity <= tolerance)
+    if (residuals.complementarity <= tolerance)
       return;
     if (!partners.empty())
       fail_contradictory(partners);
-    fail(to_text("link '", constraints[certificate.worst_constraint].name,
-                 "' misses the contact tolerance: residual ", certificate.complementarity, " > ",
-                 tolerance, ". ", remedy(certificate.complementarity)),
-         constraints.origin(certificate.worst_constraint));
+    fail(to_text("link '", constraints[residuals.worst_constraint].name,
+                 "' misses the contact tolerance: residual ", residuals.complementarity, " > ",
+                 tolerance, ". ", remedy(residuals.complementarity)),
+         constraints.origin(residuals.worst_constraint));
   }
 
-  void StepCheck::check_balance(const Certificate &certificate, const double own_balance) const
+  void StepCheck::check_balance(const Residuals &residuals, const double own_balance) const
   {
-    if (certificate.balance <= tolerance)
+    if (residuals.balance <= tolerance)
       return;
     structure.communicator().agree(
         [&]
         {
-          if (own_balance < certificate.balance || structure.size() == 0)
+          if (own_balance < residuals.balance || structure.size() == 0)
             return;
-          const Substructure &body = structure[certificate.worst_body];
+          const Substructure &body = structure[residuals.worst_body];
           fail(to_text("body '", body.name(), "' misses the contact tolerance in its equation of ",
-                       time ? "motion" : "equilibrium", ": residual ", certificate.balance, " > ",
-                       tolerance, ". ", remedy(certificate.balance)),
+                       time ? "motion" : "equilibrium", ": residual ", residuals.balance, " > ",
+                       tolerance, ". ", remedy(residuals.balance)),
                body.origin());
         });
   }

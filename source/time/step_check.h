@@ -3,7 +3,7 @@
 #define taut_step_check_h
 
 #include <taut/interface/constraints.h>
-#include <taut/time/certificate.h>
+#include <taut/time/residuals.h>
 
 #include <functional>
 #include <optional>
@@ -16,7 +16,7 @@ namespace taut
   class StepCheck
   {
   public:
-    /// The arguments are kept by reference; @p tolerance is the bound of the certificate.
+    /// The arguments are kept by reference; @p tolerance is the bound of the residuals.
     StepCheck(const Structure &structure, const Constraints &constraints, const double tolerance)
         : structure(structure), constraints(constraints), tolerance(tolerance)
     {
@@ -33,12 +33,12 @@ namespace taut
     }
 
     /// Checks that the constraints hold. @p partners are those that the worst one repeats.
-    void check_constraints(const Certificate &certificate,
+    void check_constraints(const Residuals &residuals,
                            const std::vector<std::size_t> &partners = {}) const;
 
     /// Checks that the equations of motion hold. @p own_balance is the residual of this rank's
     /// bodies. Called by all ranks together.
-    void check_balance(const Certificate &certificate, double own_balance) const;
+    void check_balance(const Residuals &residuals, double own_balance) const;
 
     /// "at t = 0.1 s: " or "static equilibrium: ".
     std::string when() const;

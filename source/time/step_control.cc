@@ -111,8 +111,7 @@ namespace taut
   /// Longest step that resolves a contact in the last step [s].
   double StepControl::longest_step(const std::size_t i, const Motion &motion) const
   {
-    return longest_steps[i].between(-motion.rows_before().geometric_gap[i],
-                                    -motion.state().geometric_gap[i]);
+    return longest_steps[i].between(-motion.rows_before().distance[i], -motion.state().distance[i]);
   }
 
   /// Whether a contact is under way: it opens or closes, may still be a rebound, or its force

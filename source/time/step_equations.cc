@@ -181,14 +181,14 @@ namespace taut
 
   const MixedComplementaritySolution &
   StepEquations::find_multipliers(const MixedComplementarityProblem &problem,
-                                  const StepCheck &check, Certificate &certificate)
+                                  const StepCheck &check, Residuals &residuals)
   {
     const MixedComplementaritySolution *solution = nullptr;
     const auto find = [&]
     {
       const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
-      certificate.iterations = result.iterations;
-      certificate.fallback = result.used_fallback;
+      residuals.iterations = result.iterations;
+      residuals.fallback = result.used_fallback;
       solution = &result.solution;
     };
     check.solve(find);

@@ -5,8 +5,8 @@
 #include "complementarity/solver.h"
 #include "interface/schur_complement.h"
 #include "time/step_check.h"
-#include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
+#include <taut/time/residuals.h>
 #include <taut/time/step_parameters.h>
 
 #include <functional>
@@ -79,10 +79,10 @@ namespace taut
     void set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const;
 
     /// Solves for multipliers and amplitudes. Errors come from @p check, iterations go into
-    /// @p certificate. The result is valid until the next call.
+    /// @p residuals. The result is valid until the next call.
     const MixedComplementaritySolution &find_multipliers(const MixedComplementarityProblem &problem,
                                                          const StepCheck &check,
-                                                         Certificate &certificate);
+                                                         Residuals &residuals);
 
     /// Replaces P^ by dU, with multipliers @p N and amplitudes @p alpha.
     void find_increments(const std::vector<double> &N, const std::vector<double> &alpha,

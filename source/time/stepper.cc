@@ -122,7 +122,7 @@ namespace taut
 
   double Stepper::gap(const std::size_t constraint) const
   {
-    return state().geometric_gap[row(constraint)];
+    return state().distance[row(constraint)];
   }
 
   double Stepper::displacement(const Displacement &form) const

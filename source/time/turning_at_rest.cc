@@ -103,7 +103,7 @@ namespace taut
       if (all[i].cone.rests_open(state.multiplier[i], gap))
         continue;
       const double miss =
-          std::fabs(gap - state.geometric_gap[i]) / std::max(norm(difference), turning.length);
+          std::fabs(gap - state.distance[i]) / std::max(norm(difference), turning.length);
       result = std::max({result, change, miss});
       if (std::isnan(change) || std::isnan(miss))
         return std::numeric_limits<double>::infinity();
@@ -115,10 +115,10 @@ namespace taut
   {
     if (empty())
       return;
-    for (std::vector<double> *v : {&state.multiplier, &state.gap, &state.geometric_gap})
+    for (std::vector<double> *v : {&state.multiplier, &state.complementarity_gap, &state.distance})
       v->resize(all.size());
-    if (state.certificate.worst_constraint >= all.size())
-      state.certificate.worst_constraint = source[state.certificate.worst_constraint - all.size()];
+    if (state.residuals.worst_constraint >= all.size())
+      state.residuals.worst_constraint = source[state.residuals.worst_constraint - all.size()];
   }
 
   std::vector<double> TurningAtRest::gaps(const BodyVectors &U) const

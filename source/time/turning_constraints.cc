@@ -84,7 +84,7 @@ namespace taut
       // Avoids cancellation.
       increments[k] = sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.;
       const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
-                   gap = before.geometric_gap[i] + increments[k] + history[i];
+                   gap = before.distance[i] + increments[k] + history[i];
       const bool is_open = constraints[i].cone.rests_open(N[i], gap);
       if (!is_open)
         check_turn(i, before);

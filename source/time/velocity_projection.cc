@@ -73,10 +73,9 @@ namespace taut
       takes_part[i] = 1;
       if (contacts.remains_in_contact(i, state))
         continue;
-      acts =
-          acts || std::fabs(state.gap_rate[i]) >
-                      rounding_of_rates * (contacts.velocity_sizes()[i] +
-                                           std::fabs(state.gap_rate[i] - contacts.velocities()[i]));
+      acts = acts || std::fabs(state.rate[i]) >
+                         rounding_of_rates * (contacts.velocity_sizes()[i] +
+                                              std::fabs(state.rate[i] - contacts.velocities()[i]));
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       contacts.rates_before_step()[i] < 0.);
     }
@@ -112,7 +111,7 @@ namespace taut
     f.apply_absolute(p, work_vector);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      rate[i] = state.gap_rate[i];
+      rate[i] = state.rate[i];
       problem.free_gap[i] = rate[i] - change[i];
       problem.gap_scale[i] += work_vector[i];
       largest_scale[i] = std::max(largest_scale[i], problem.gap_scale[i]);
@@ -198,8 +197,8 @@ namespace taut
     {
       Work &own = works[groups.of_constraint(i)];
       own.a += .5 * rebounding[i] * of_rebounding[i];
-      own.b += rebounding[i] * (state.gap_rate[i] + of_plain[i]);
-      own.c += q[i] * (state.gap_rate[i] + .5 * of_plain[i]);
+      own.b += rebounding[i] * (state.rate[i] + of_plain[i]);
+      own.c += q[i] * (state.rate[i] + .5 * of_plain[i]);
       if (!constraints.slides(i))
         own.c += p[i] * contacts.increments()[i] / step;
     }
@@ -255,7 +254,7 @@ namespace taut
         continue;
       const double expected = rate[i] + change[i] - softening[i] * q[i],
                    size = problem.gap_scale[i] + std::fabs(rate[i]) + std::fabs(expected),
-                   error = std::fabs(state.gap_rate[i] - expected),
+                   error = std::fabs(state.rate[i] - expected),
                    relative = error == 0. ? 0. : error / size;
       if (!(relative <= found.largest) && !std::isnan(found.largest))
         found = {relative, i};

@@ -123,12 +123,12 @@ namespace
           if (++n == 0)
           {
             statics = from - begin;
-            sets_at_rest = view.certificate.iterations;
+            sets_at_rest = view.residuals.iterations;
             std::printf("%u DoFs, %zu constraints, %zu closed at rest\n",
                         view.structure[0].n_dofs(), view.state.multiplier.size(), n_closed(view));
           }
           else
-            n_sets += view.certificate.iterations;
+            n_sets += view.residuals.iterations;
           if (n == 1)
             first = from - begin - not_taut;
           end = from - begin - not_taut;

@@ -30,7 +30,7 @@ namespace
     const Cable *const cable = one.cable;
     Stepper stepper(one.system, steps_of(2e-3, Start::equilibrium));
     AtRest result;
-    result.balance = stepper.certificate().balance;
+    result.balance = stepper.residuals().balance;
     const std::vector<double> U = stepper.displacement(0), r = unbalanced(*cable, U);
     const auto first = cable->elements().end_dofs(false), last = cable->elements().end_dofs(true);
     result.horizontal = r[first[0]];

@@ -166,7 +166,7 @@ TEST(CableJoints, ball_joint_offset)
         [&](const StepView &view)
         {
           sunk = -verification::displacement(view, verification::point_of_mass(view, 0));
-          gap = verification::largest(view.state.geometric_gap);
+          gap = verification::largest(view.state.distance);
         });
     EXPECT_NEAR(sunk, apart + (98.1 + .5 * weight) / EA * length, 1e-7);
     EXPECT_LT(gap, 1e-12);

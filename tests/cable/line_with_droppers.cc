@@ -92,7 +92,7 @@ namespace
             for (std::size_t i = 0; i < n_droppers; ++i)
             {
               found.start.tension[i] = step.state.multiplier[link_of[i]];
-              found.start.distance[i] = lengths[i] - step.state.geometric_gap[link_of[i]];
+              found.start.distance[i] = lengths[i] - step.state.distance[link_of[i]];
             }
             found.start.middle = middle;
             found.start.messenger = displaced(step, step.scene.probes[1].point).y;

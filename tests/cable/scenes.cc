@@ -110,12 +110,12 @@ TEST(CableScenes, floor)
   run_scene(scene_file("cable_on_floor"), {},
             [&](const taut::StepView &step)
             {
-              most_iterations = std::max(most_iterations, step.certificate.iterations);
+              most_iterations = std::max(most_iterations, step.residuals.iterations);
               const std::vector<double> &N = step.state.multiplier;
               if (step.state.time == 0.)
                 at_start = std::accumulate(N.begin(), N.end(), 0.);
               lifted = std::max(lifted, moved(step, step.scene.probes[0].point, {0., 1.}));
-              for (const double gap : step.state.gap)
+              for (const double gap : step.state.complementarity_gap)
                 EXPECT_GE(gap, -1e-12);
             });
   EXPECT_NEAR(at_start, 535.5, 3.);

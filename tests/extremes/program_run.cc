@@ -42,7 +42,7 @@ namespace extremes
         if (group[k] == k)
           o[rotational ? moment : force].push_back(sum[k]);
         o[rotational ? angular_gap : gap].push_back(
-            view.state.geometric_gap[view.constraints.index_of_link(k)]);
+            view.state.distance[view.constraints.index_of_link(k)]);
       }
       return o;
     }
@@ -83,9 +83,9 @@ namespace extremes
       for (std::size_t k = 0; k < group.size(); ++k)
         answer.conserving.push_back(
             view.constraints[view.constraints.index_of_link(k)].spring.conserving);
-      answer.certificate = std::max(answer.certificate, view.certificate.max());
-      answer.iterations = std::max(answer.iterations, view.certificate.iterations);
-      answer.n_fallbacks += view.certificate.fallback;
+      answer.certificate = std::max(answer.certificate, view.residuals.max());
+      answer.iterations = std::max(answer.iterations, view.residuals.iterations);
+      answer.n_fallbacks += view.residuals.fallback;
     };
     answer.error = verification::error_of([&] { session_of(c).run(record); });
     return answer;

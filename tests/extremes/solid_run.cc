@@ -122,7 +122,7 @@ namespace extremes
       for (std::size_t k = 0; k < view.constraints.size(); ++k)
       {
         o[force].push_back(view.state.multiplier[k]);
-        o[gap].push_back(view.state.geometric_gap[k]);
+        o[gap].push_back(view.state.distance[k]);
       }
       return o;
     }
@@ -207,9 +207,9 @@ namespace extremes
       answer.conserving.clear();
       for (std::size_t k = 0; k < view.constraints.size(); ++k)
         answer.conserving.push_back(view.constraints[k].spring.conserving);
-      answer.certificate = std::max(answer.certificate, view.certificate.max());
-      answer.iterations = std::max(answer.iterations, view.certificate.iterations);
-      answer.n_fallbacks += view.certificate.fallback;
+      answer.certificate = std::max(answer.certificate, view.residuals.max());
+      answer.iterations = std::max(answer.iterations, view.residuals.iterations);
+      answer.n_fallbacks += view.residuals.fallback;
     };
     const auto mesh = [&](const Box &box)
     { return c.dim == 2 ? mesh_of<2>(box) : mesh_of<3>(box); };

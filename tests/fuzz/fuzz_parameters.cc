@@ -326,9 +326,9 @@ namespace
         for (const std::vector<double> &vector : *vectors)
           check(vector, "the motion of a body");
       check(state.multiplier, "a multiplier");
-      check(state.geometric_gap, "a gap");
+      check(state.distance, "a gap");
       check(step.probes, "a probe");
-      if (!(step.certificate.max() <= tolerance))
+      if (!(step.residuals.max() <= tolerance))
         throw std::logic_error("the certificate of an accepted step misses the tolerance");
     }
 

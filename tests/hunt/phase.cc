@@ -207,7 +207,7 @@ namespace hunt
         forces[r] = Vector(parts.n_state(), 0.);
         forces[r][one] = spring.f[piece] - spring.k[piece] * spring.u[piece];
         forces[r] = scaled_sum(forces[r], -spring.k[piece], gap(r));
-        forces[r] = scaled_sum(forces[r], -model.rows[r].damping, gap_rate(r));
+        forces[r] = scaled_sum(forces[r], -model.rows[r].damping, rate(r));
       }
     std::vector<Vector> force(n, Vector(parts.n_state(), 0.));
     for (std::size_t a = 0; a < n; ++a)
@@ -294,7 +294,7 @@ namespace hunt
     return result;
   }
 
-  Vector Phase::gap_rate(const std::size_t row) const
+  Vector Phase::rate(const std::size_t row) const
   {
     Vector result(parts.n_state(), 0.);
     for (std::size_t j = 0; j < parts.n_q(); ++j)

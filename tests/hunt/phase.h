@@ -54,7 +54,7 @@ namespace hunt
 
     /// Linear forms of z: gap of a row, its rate, its force, all displacements.
     Vector gap(std::size_t row) const;
-    Vector gap_rate(std::size_t row) const;
+    Vector rate(std::size_t row) const;
     const Vector &force(std::size_t row) const { return forces[row]; }
     Vector displacement(const Vector &z) const;
 

@@ -142,7 +142,7 @@ namespace hunt
                      model->kinetic(model->velocity(view)), model->potential(u)};
     for (std::size_t i = 0; i < m; ++i)
       if (!view.constraints[i].spring.is_rigid())
-        sample.potential += view.constraints[i].spring.energy(view.state.link_springs[i].u);
+        sample.potential += view.constraints[i].spring.energy(view.state.springs[i].u);
     history.push_back(sample);
   }
 

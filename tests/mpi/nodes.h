@@ -59,7 +59,7 @@ namespace verification
             if (view.constraints[i].is_link() || view.constraints[i].contact != taut::no_contact)
             {
               result.force.push_back(view.state.multiplier[i]);
-              result.gap.push_back(view.state.geometric_gap[i]);
+              result.gap.push_back(view.state.distance[i]);
             }
           result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
           add_displacements(view, n_nodes, result.displacement);

@@ -3,7 +3,7 @@
 // them, and setting F up takes as many exchanges whatever its size. Source: a row of masses on
 // springs, for which A_k are numbers and F has three diagonals.
 #include "common.h"
-#include "fuzz/door_bodies.h"
+#include "fuzz/library_bodies.h"
 
 #include "interface/schur_complement.h"
 #include <taut/base/communicator.h>

@@ -54,7 +54,7 @@ namespace
             if (view.constraints[i].is_link())
             {
               now.force.push_back(view.state.multiplier[i]);
-              now.gap.push_back(view.state.geometric_gap[i]);
+              now.gap.push_back(view.state.distance[i]);
             }
           add_displacements(view, is_start ? view.reference.displacement : view.state.U,
                             now.displacement);

@@ -71,7 +71,7 @@ Time: Scheme = automatic; Step = 4e-3; End = 4
         if (view.state.time == 0. && name == "left guy")
           result.windward = view.state.multiplier[k];
         if (view.state.time == 0. && name == "right guy")
-          result.slack = view.state.geometric_gap[k];
+          result.slack = view.state.distance[k];
         if (name == "right guy")
           result.at_end = view.state.multiplier[k];
       }

@@ -35,11 +35,11 @@ namespace
       {
         const double N = view.state.multiplier[i];
         found.force.push_back(N);
-        found.gap.push_back(view.state.geometric_gap[i++]);
+        found.gap.push_back(view.state.distance[i++]);
         found.resultant += N;
         found.largest_pressure = std::fmax(found.largest_pressure, N / constraint.area);
       }
-      found.iterations = view.certificate.iterations;
+      found.iterations = view.residuals.iterations;
     };
     run_scene(scene, overrides, record);
     return found;

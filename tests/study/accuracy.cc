@@ -5,7 +5,7 @@
 
 #include "study/accuracy_search.h"
 #include "study/default_quantities.h"
-#include "study/dials.h"
+#include "study/refinements.h"
 #include <taut/simulation/parameters.h>
 
 namespace
@@ -76,7 +76,7 @@ TEST_F(AccuracyTest, expected_errors_bound_the_true_ones)
     }
 }
 
-// Two dials. Exact: impulse 200 N s, contact for 2/3 s.
+// Two refinements. Exact: impulse 200 N s, contact for 2/3 s.
 TEST_F(AccuracyTest, finds_step_and_mesh_of_a_bar_on_a_wall)
 {
   const taut::StudyResult result = search(.01, {}, TAUT_PRM_FOLDER "/bar_on_wall.prm");
@@ -178,19 +178,21 @@ TEST(DefaultQuantities, follow_the_kind_of_scene)
 
 TEST(Dials, halve_sizes_double_counts_and_add_refinements)
 {
-  const std::vector<taut::Dial> dials = taut::find_dials({{"Time/Step", "0.01"},
-                                                          {"Network/Wire a/Element size", "0.5"},
-                                                          {"Network/Wire b/Element size", "0.5"},
-                                                          {"Body c/Elements", "48"},
-                                                          {"Body s/Mesh/Refinements", "2"},
-                                                          {"Body c/Element", "bar"}});
-  ASSERT_EQ(dials.size(), 2u);
-  EXPECT_EQ(dials[0].values(0), Texts{"0.08"});
-  EXPECT_EQ(dials[1].n_coarser, 2) << "two refinements can be taken back";
-  ASSERT_EQ(dials[1].groups.size(), 3u);
-  EXPECT_EQ(dials[1].values(0), (Texts{"12", "0", "2"}));
-  EXPECT_EQ(dials[1].values(3), (Texts{"96", "3", "0.25"}));
-  EXPECT_EQ(dials[1].groups[2].entries.size(), 2u);
-  EXPECT_EQ(taut::find_dials({{"Time/Step", "1"}}).size(), 1u);
-  EXPECT_EQ(taut::find_dials({{"Time/Step", "1"}, {"Body c/Elements", "50"}})[1].n_coarser, 1);
+  const std::vector<taut::Refinement> refinements =
+      taut::find_refinements({{"Time/Step", "0.01"},
+                              {"Network/Wire a/Element size", "0.5"},
+                              {"Network/Wire b/Element size", "0.5"},
+                              {"Body c/Elements", "48"},
+                              {"Body s/Mesh/Refinements", "2"},
+                              {"Body c/Element", "bar"}});
+  ASSERT_EQ(refinements.size(), 2u);
+  EXPECT_EQ(refinements[0].values(0), Texts{"0.08"});
+  EXPECT_EQ(refinements[1].n_coarser, 2) << "two refinements can be taken back";
+  ASSERT_EQ(refinements[1].groups.size(), 3u);
+  EXPECT_EQ(refinements[1].values(0), (Texts{"12", "0", "2"}));
+  EXPECT_EQ(refinements[1].values(3), (Texts{"96", "3", "0.25"}));
+  EXPECT_EQ(refinements[1].groups[2].entries.size(), 2u);
+  EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"}}).size(), 1u);
+  EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"}, {"Body c/Elements", "50"}})[1].n_coarser,
+            1);
 }

@@ -3,7 +3,7 @@
 // by adding observers, and goes on from a checkpoint with the same bits. Source: free fall.
 #include "cable/slack_cable.h"
 #include "common.h"
-#include "fuzz/door_bodies.h"
+#include "fuzz/library_bodies.h"
 
 #include <taut/output/energy.h>
 #include <taut/output/fields.h>
@@ -38,7 +38,7 @@ namespace
   Result run(const std::string &folder, const double until, const bool goes_on)
   {
     taut::System system;
-    const auto mass = system.add("mass", [] { return door::chain_of("mass", {2.}, {0.}); });
+    const auto mass = system.add("mass", [] { return library::chain_of("mass", {2.}, {0.}); });
     system.add("cable", [] { return std::make_unique<taut::Cable>(verification::slack_cable()); });
     const taut::Displacement up = system.displacement(mass, {}, {0., 1., 0.});
     system.add(taut::Constraint::unilateral("stop", up).gap(height));
@@ -89,8 +89,8 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
   EXPECT_EQ(whole.state.V, parts.state.V);
   EXPECT_EQ(whole.impulse, parts.impulse);
   // The impact takes the momentum, and the mass lies until the end.
-  const double fall = std::sqrt(2. * height / door::gravity);
-  const double exact = 2. * door::gravity * fall + 2. * door::gravity * (whole.state.time - fall);
+  const double fall = std::sqrt(2. * height / library::gravity);
+  const double exact = 2. * library::gravity * fall + 2. * library::gravity * (whole.state.time - fall);
   EXPECT_NEAR(whole.impulse, exact, 1e-2 * exact);
   EXPECT_EQ(whole.uplift, 0.);
   const auto files = files_in(folder + "/whole"), others = files_in(folder + "/parts");

@@ -149,7 +149,7 @@ TEST(BouncingBar, contacts_force_and_energy_are_exact_for_ten_contacts)
             first_energy = energy(view);
           if (t <= 10. * period)
             last_energy = energy(view);
-          least_gap = std::min(least_gap, view.state.geometric_gap[0]);
+          least_gap = std::min(least_gap, view.state.distance[0]);
           contacts.record(t, view.state.multiplier[0]);
         });
     const double potential = 10. * 10. * 5., change = (last_energy - first_energy) / potential;

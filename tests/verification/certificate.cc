@@ -42,7 +42,7 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3
             start.state = view.state;
           });
       start.state.V[0][start.state.V[0].size() / 2] = velocity;
-      start.state.geometric_gap[0] += gap_error;
+      start.state.distance[0] += gap_error;
       constraints = std::make_unique<taut::Constraints>(
           taut::scene_constraints(session.simulation().scene(), structure()));
       taut::StepperOptions options;
@@ -81,9 +81,9 @@ TEST(Certificate, right_steps_pass)
   {
     Steps steps(velocity);
     EXPECT_EQ(steps.refusal(), "");
-    EXPECT_LT(steps.stepper->certificate().max(), 1e-13);
+    EXPECT_LT(steps.stepper->residuals().max(), 1e-13);
     figure("certificate of a mass on a string, first velocity " + std::to_string(velocity) + " m/s",
-           steps.stepper->certificate().max());
+           steps.stepper->residuals().max());
   }
 }
 
@@ -150,7 +150,7 @@ TEST(Certificate, a_moving_row_keeps_the_offset_of_its_start)
     const taut::ConstraintData &constraint = (*steps.constraints)[0];
     const double motion = evaluate(constraint.terms, steps.stepper->reference().displacement) +
                           evaluate(constraint.terms, steps.stepper->state().U);
-    EXPECT_NEAR(steps.stepper->state().geometric_gap[0] - constraint.gap - motion, offset, 1e-13);
+    EXPECT_NEAR(steps.stepper->state().distance[0] - constraint.gap - motion, offset, 1e-13);
   }
 }
 
@@ -164,7 +164,7 @@ TEST(Certificate, statics_measure_their_balance)
   const taut::SceneBodies structure(alone);
   const taut::Constraints constraints = taut::scene_constraints(alone, structure);
   taut::SolverParameters parameters;
-  const taut::Certificate certificate =
+  const taut::Residuals certificate =
       taut::static_equilibrium(structure, constraints, parameters, 0.).certificate;
   EXPECT_GT(certificate.balance, 1e-18);
   EXPECT_LT(certificate.balance, 1e-14);
@@ -179,7 +179,7 @@ TEST(Certificate, does_not_take_rounding_for_a_drift)
 {
   const std::vector<double> certificates = history_of(
       scene_file("beam_over_supports"), {"Network/Wire beam/Element size=1", "Time/End=0.1"},
-      [](const taut::StepView &view) { return view.certificate.max(); });
+      [](const taut::StepView &view) { return view.residuals.max(); });
   EXPECT_LT(
       figure("beam over supports, elements of 1 m: largest certificate", largest(certificates)),
       1e-11);

@@ -239,7 +239,7 @@ TEST(Schemes, automatic_leaves_a_mass_on_a_rigid_floor)
               [&](const taut::StepView &view)
               {
                 if (view.state.time > .41)
-                  raise(largest, view.state.geometric_gap[0]);
+                  raise(largest, view.state.distance[0]);
               });
     return largest;
   };

@@ -133,12 +133,12 @@ namespace
     state.U = state.V = state.A = state.dU = state.V_old = state.KU = state.balance =
         structure.zero();
     state.multiplier.assign(constraints.size(), 0.);
-    state.link_springs.resize(constraints.size());
+    state.springs.resize(constraints.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
       structure[k].initial_state(state.U[k], state.V[k]);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      state.geometric_gap.push_back(constraints[i].gap);
-    state.gap = state.geometric_gap;
+      state.distance.push_back(constraints[i].gap);
+    state.complementarity_gap = state.distance;
     return state;
   }
 
@@ -149,8 +149,7 @@ namespace
     double sum = energy_of_bodies(structure, state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (!constraints[i].spring.is_rigid())
-        sum += .5 * constraints[i].spring.stiffness *
-               std::pow(std::min(0., state.geometric_gap[i]), 2);
+        sum += .5 * constraints[i].spring.stiffness * std::pow(std::min(0., state.distance[i]), 2);
     return sum;
   }
 

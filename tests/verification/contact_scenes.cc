@@ -43,7 +43,7 @@ Time: Step = 5e-3; End = 0.5
     const Callback record = [&](const taut::StepView &view)
     {
       raise(result.energy, energy_of_bodies(view.structure, view.state) / energy_of_fall);
-      for (const double gap : view.state.geometric_gap)
+      for (const double gap : view.state.distance)
         if (view.state.time > .16)
           result.rebound = std::max(result.rebound, gap);
     };
@@ -189,7 +189,7 @@ Time/Moreau-Jean: Restitution = 0.8
             {},
             [&](const taut::StepView &view)
             {
-              const double height = view.state.geometric_gap[0];
+              const double height = view.state.distance[0];
               if (view.state.multiplier[0] > 0.)
               {
                 if (has_hit && highest > 0.)

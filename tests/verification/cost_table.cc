@@ -84,7 +84,7 @@ TEST(CostTable, has_all_steps_of_a_run)
                     {"Output/Observers=cost", "Output/Interval=" + interval, "Time/End=1"});
     long iterations = 0;
     session.run([&](const taut::StepView &view)
-                { iterations += view.state.time > 0. ? view.certificate.iterations : 0; });
+                { iterations += view.state.time > 0. ? view.residuals.iterations : 0; });
     const auto table = read_table(session.folder() + "/cost.csv");
     const std::vector<double> &steps = table.at("steps [1]"), &times = table.at("time [s]");
     const double n = static_cast<double>(session.simulation().n_steps());

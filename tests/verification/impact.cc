@@ -70,7 +70,7 @@ namespace
                 r.time.push_back(t);
                 r.force.push_back(N);
                 r.least_force = std::min(r.least_force, N);
-                r.least_gap = std::min(r.least_gap, view.state.gap[0]);
+                r.least_gap = std::min(r.least_gap, view.state.complementarity_gap[0]);
                 r.energy_kept = energy / energy_before;
                 if (N > 0.)
                   r.last = t;

@@ -20,7 +20,7 @@ namespace
     {
       stepper.advance();
       EXPECT_NEAR(stepper.time(), i * step, 1e-12);
-      EXPECT_LT(stepper.certificate().balance, 1e-9);
+      EXPECT_LT(stepper.residuals().balance, 1e-9);
     }
   }
 

@@ -41,7 +41,7 @@ Time: Step = 1e-4; End = 0.1
   /// Of a link [J].
   double spring_energy(const taut::StepView &view, const std::size_t i)
   {
-    return view.constraints[i].spring.energy(view.state.link_springs[i].u);
+    return view.constraints[i].spring.energy(view.state.springs[i].u);
   }
 
   struct Flight
@@ -114,7 +114,7 @@ Time: Step = 1e-4; End = 0.1
                               &forces = at_rest.empty() ? view.state.multiplier : at_rest;
     for (std::size_t i = 0; i < view.constraints.size(); ++i)
     {
-      const double N = forces[i], g = view.state.geometric_gap[i];
+      const double N = forces[i], g = view.state.distance[i];
       held += N;
       raise(lack, N - (g < 0. ? view.constraints[i].spring.law->force(-g) : 0.));
     }
@@ -146,8 +146,8 @@ Time: Step = 1e-4; End = 0.1
           if (result.motion.empty())
           {
             result.force = view.state.multiplier[0];
-            result.elongation = -view.state.geometric_gap[0];
-            EXPECT_LT(view.certificate.complementarity, 1e-11);
+            result.elongation = -view.state.distance[0];
+            EXPECT_LT(view.residuals.complementarity, 1e-11);
           }
           result.motion.insert(result.motion.end(), {view.probes[0], view.state.multiplier[0]});
         });
@@ -343,7 +343,7 @@ TEST(Laws, rows_of_any_laws_are_at_rest)
         [&](const taut::StepView &view)
         {
           raise(largest, largest_lack(view));
-          raise(residual, view.certificate.complementarity);
+          raise(residual, view.residuals.complementarity);
         });
   figure("law, 100 random rows at rest, largest lack of force over the weight", largest);
   EXPECT_LT(largest, 1e-9);

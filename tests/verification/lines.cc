@@ -78,7 +78,7 @@ namespace
               {
                 if (view.state.time > 0.)
                   return;
-                found.residual = view.certificate.complementarity;
+                found.residual = view.residuals.complementarity;
                 for (std::size_t i = 0; i < n_droppers; ++i)
                 {
                   const std::size_t link = span * n_droppers + i;
@@ -330,7 +330,7 @@ Time: Step = 1e-3; End = 0.05
                 {
                   if (at_start.empty())
                     at_start = view.state.multiplier;
-                  raise(worst, view.certificate.max());
+                  raise(worst, view.residuals.max());
                   raise(change_of_force, change(at_start, view.state.multiplier));
                 });
       // The sum of the forces falls with the height u of the mass: halve the interval of its zero.

@@ -65,7 +65,7 @@ Time: Scheme = Newmark; Step = 2e-4; End = 2
                                              (Omega * Omega - omega * omega));
               raise(error, view.state.U[1][0] - u);
               raise(force_error, view.state.multiplier[0] - k * (u - support));
-              raise(gap_error, view.state.geometric_gap[0] - (support - view.state.U[1][0]));
+              raise(gap_error, view.state.distance[0] - (support - view.state.U[1][0]));
             });
   figure("mass on a support that moves, largest error over the way of the support", error / a);
   figure("mass on a support that moves, largest error of the force", force_error, "N");
@@ -122,7 +122,7 @@ Time: Scheme = backward Euler; Step = 1e6; End = 1e6
               EXPECT_NEAR(view.state.U[1][0], u, 1e-9 * u);
               const double N = k2 * u + m2 / (step * step) * (u - u0);
               EXPECT_NEAR(std::fabs(view.state.multiplier[0]), N, 1e-9 * N);
-              EXPECT_NEAR(view.state.geometric_gap[0], 0., 1e-9 * u);
+              EXPECT_NEAR(view.state.distance[0], 0., 1e-9 * u);
             });
 }
 

@@ -27,7 +27,7 @@ namespace
                   if (view.constraints[i].is_link())
                   {
                     result.force.push_back(view.state.multiplier[i]);
-                    result.gap.push_back(view.state.geometric_gap[i]);
+                    result.gap.push_back(view.state.distance[i]);
                     result.closed.push_back(view.state.multiplier[i] != 0.);
                   }
                 }

@@ -55,7 +55,7 @@ TEST(Refinement, a_stop_that_lets_go_does_not_pull)
                              u2 = m2 * (u[1] + step * v[1]) / (m2 + 3111.3);
                 EXPECT_EQ(view.state.multiplier[0], 0.);
                 EXPECT_NEAR(view.state.U[0][0], u1, 1e-9 * std::fabs(u1));
-                EXPECT_NEAR(view.state.geometric_gap[0], u2 - u1, 1e-9 * std::fabs(u1));
+                EXPECT_NEAR(view.state.distance[0], u2 - u1, 1e-9 * std::fabs(u1));
               }
               else if (view.state.time > 0.)
               {
@@ -80,7 +80,7 @@ TEST(Refinement, a_stop_that_is_reached_pushes)
               if (view.state.time == 0.)
                 return;
               EXPECT_NEAR(view.state.multiplier[0], N, 1e-9 * N);
-              EXPECT_NEAR(view.state.geometric_gap[0], 0., 1e-9 * N / 1000.3);
+              EXPECT_NEAR(view.state.distance[0], 0., 1e-9 * N / 1000.3);
             });
 }
 
@@ -98,7 +98,7 @@ TEST(Refinement, a_joint_without_force_holds)
               EXPECT_NEAR(std::fabs(view.state.multiplier[0]), .5 * P, 1e-9 * P);
               for (int i = 0; i < 2; ++i)
                 EXPECT_NEAR(view.state.U[i][0], u, 1e-9 * u);
-              EXPECT_NEAR(view.state.geometric_gap[0], 0., 1e-9 * P / k);
+              EXPECT_NEAR(view.state.distance[0], 0., 1e-9 * P / k);
             });
 }
 
@@ -153,7 +153,8 @@ TEST(Refinement, compliant_stops_and_mean_balances)
                   const double N = -ks * u - d * v;
                   EXPECT_NEAR(view.state.U[0][0], u, 1e-5 * std::fabs(u)) << c.entries << n;
                   EXPECT_NEAR(view.state.multiplier[0], N, 1e-5 * N) << c.entries << n;
-                  EXPECT_NEAR(view.state.gap[0], 0., 1e-9 * std::fabs(u)) << c.entries << n;
+                  EXPECT_NEAR(view.state.complementarity_gap[0], 0., 1e-9 * std::fabs(u))
+                      << c.entries << n;
                 }
                 ++n;
               });

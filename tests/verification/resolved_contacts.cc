@@ -232,7 +232,7 @@ Time: Step = 0.0014; End = 0.28
             [&](const taut::StepView &view)
             {
               ++n_steps;
-              deepest = std::min(deepest, view.state.geometric_gap[0]);
+              deepest = std::min(deepest, view.state.distance[0]);
             });
   figure("law with damper, steps for 200", n_steps);
   figure("law with damper, compression", -1e3 * deepest, "mm");

@@ -66,7 +66,7 @@ namespace
         {
           r.forces.push_back(view.state.multiplier);
           r.probes.push_back(view.probes);
-          r.n_fallbacks += view.certificate.fallback;
+          r.n_fallbacks += view.residuals.fallback;
           if (r.forces.size() == 1)
             for (const std::vector<double> &u : view.reference.displacement)
               r.displacement = std::max(r.displacement, largest(u));

@@ -47,8 +47,8 @@ Probe ball: Point = ball
     session.run(
         [&](const taut::StepView &view)
         {
-          steps.push_back({view.state.time, view.state.multiplier[0], view.state.geometric_gap[0],
-                           view.probes[0]});
+          steps.push_back(
+              {view.state.time, view.state.multiplier[0], view.state.distance[0], view.probes[0]});
         });
     return steps;
   }

@@ -64,7 +64,7 @@ TEST(Sizes, largest_entries_of_vectors_are_those_of_a_loop)
                       end - begin);
           for (int v = 0; v < 4; ++v)
           {
-            taut::PerKind expected = {0., 0.};
+            taut::ByKind expected = {0., 0.};
             for (unsigned int i = 0; i < n; ++i)
               raise(expected[body.kind(i)], x[v][i]);
             for (int kind = 0; kind < 2; ++kind)
@@ -93,7 +93,7 @@ TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
       force = value(random) > 0. ? value(random) : 0.;
     if (i % 5 == 0)
       N[random() % N.size()] = std::numeric_limits<double>::quiet_NaN();
-    std::vector<taut::PerKind> expected(structure.size(), {0., 0.}), found;
+    std::vector<taut::ByKind> expected(structure.size(), {0., 0.}), found;
     std::vector<double> motion(constraints.size()), size(constraints.size());
     taut::BodyVectors U = structure.zero(), P = structure.zero(), P_expected = P;
     for (std::vector<double> &u : U)

@@ -77,7 +77,7 @@ Time: Scheme = BDF2; Step = 5e-4; End = 0.4
                            w = displacement(view, 0, v * t);
               error = std::max(error, std::fabs(w - exact) / exact);
               raise(force_error, view.state.multiplier[0] - 120.);
-              compression = -view.state.geometric_gap[0];
+              compression = -view.state.distance[0];
             });
   const std::string name = "sliding contact as a moving force, ";
   EXPECT_LT(figure(name + "largest relative error under it, 0.1..0.4 s", error), 2e-3);

@@ -67,7 +67,7 @@ TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
         {
           const double x = view.scene.links[view.constraints[i].link].to.position;
           const double N = view.state.multiplier[i];
-          least = std::min({least, N, view.state.gap[i]});
+          least = std::min({least, N, view.state.complementarity_gap[i]});
           resting += N;
           if (N > 0.)
           {
@@ -119,7 +119,7 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
       end_force = N;
       continue;
     }
-    least = std::min({least, N, state.gap[i]});
+    least = std::min({least, N, state.complementarity_gap[i]});
     if (N > 0.)
       first = std::min(first, x);
     // What the supports near the lift-off carry above their share of the weight.
@@ -146,7 +146,7 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
   figure("lifted beam, point reaction at the lift-off", point_reaction, "N");
   figure("lifted beam, largest error of the displacement over the lift", error / h);
   figure("lifted beam, supports that lie flat, force over its share of the weight - 1", unevenness);
-  figure("lifted beam, residual of the links", state.certificate.complementarity);
+  figure("lifted beam, residual of the links", state.residuals.complementarity);
   EXPECT_NEAR(figure("lifted beam, end force", end_force, "N"), force, 1e-3 * force);
   EXPECT_LT(error, 1e-3 * h);
   EXPECT_NEAR(first, l, spacing);

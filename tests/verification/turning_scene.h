@@ -94,8 +94,8 @@ namespace turning
       {
         const std::size_t row = view.constraints.index_of_link(i);
         result.multiplier.push_back(view.state.multiplier[row]);
-        result.gap.push_back(view.state.geometric_gap[row]);
-        result.energy += view.constraints[row].spring.energy(view.state.link_springs[row].u);
+        result.gap.push_back(view.state.distance[row]);
+        result.energy += view.constraints[row].spring.energy(view.state.springs[row].u);
       }
       return result;
     }

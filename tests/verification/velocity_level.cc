@@ -49,8 +49,8 @@ Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 0.8
                   flight = 2. * v / 10.;
                   height = std::max(0., v * (t - touch) - 5. * (t - touch) * (t - touch));
                 }
-                raise(error, view.state.geometric_gap[0] - height);
-                largest_gap_error = std::max(largest_gap_error, -view.state.geometric_gap[0]);
+                raise(error, view.state.distance[0] - height);
+                largest_gap_error = std::max(largest_gap_error, -view.state.distance[0]);
               });
     figure("bouncing ball, largest error of the height, step " + number(step), 1e3 * error, "mm");
     EXPECT_LT(largest_gap_error, 4. * step) << "a gap is open to a step of motion";
@@ -82,7 +82,7 @@ Load force: Type = point; On = mass; Magnitude = 60
               [&](const taut::StepView &view)
               {
                 const double t = view.state.time;
-                raise(gap, view.state.geometric_gap[0]);
+                raise(gap, view.state.distance[0]);
                 if (t > .01)
                   raise(force_error,
                         view.state.multiplier[0] - 60. + 5e-3 * w * w * std::cos(w * t));
@@ -161,7 +161,7 @@ TEST(MoreauJean, cuts_do_not_drift)
                 [&](const taut::StepView &view)
                 {
                   if (in_pieces)
-                    drift = std::max(drift, view.certificate.drift);
+                    drift = std::max(drift, view.residuals.drift);
                   (in_pieces ? cut : whole) += view.state.multiplier[0];
                 });
     }

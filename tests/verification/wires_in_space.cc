@@ -483,7 +483,7 @@ TEST(WiresInSpace, steady_arms_that_only_pull_go_slack_in_the_wind)
                             1e-9);
               }
               is_start = false;
-              slack = N[0] == 0. ? step.state.geometric_gap[0] : 0.;
+              slack = N[0] == 0. ? step.state.distance[0] : 0.;
               force = N[2];
               moved = step.probes.at(0);
             });

@@ -7,8 +7,8 @@
 #include <taut/base/registry.h>
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
+#include <taut/time/residuals.h>
 #include <taut/time/state.h>
 #include <taut/time/step_costs.h>
 #include <taut/time/step_report.h>
@@ -32,7 +32,7 @@ namespace taut
     const Constraints &constraints;
     const Reference &reference;
     const State &state;
-    const Certificate &certificate;
+    const Residuals &residuals;
 
     /// What the step tells, and measures of the contacts until its end.
     const StepReport &report;

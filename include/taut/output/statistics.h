@@ -72,7 +72,7 @@ namespace taut
     std::vector<NamedQuantity> named_quantities() const;
 
     /// Largest residuals of all steps.
-    const Certificate &worst_certificate() const { return worst; }
+    const Residuals &worst_residuals() const { return worst; }
 
     /// Prints the table of quantities with their expected ranges.
     void report(std::ostream &log, bool failed) const override;
@@ -120,7 +120,7 @@ namespace taut
     };
 
     void record_links(const StepView &step, double dt);
-    void record_certificate(const StepView &step);
+    void record_residuals(const StepView &step);
     bool is_in_window() const;
     template <typename Archive>
     void store(Archive &archive);
@@ -188,7 +188,7 @@ namespace taut
     std::vector<ProbeQuantities> probes;
     SupportFigures supports;
     std::vector<double> times;
-    Certificate worst;
+    Residuals worst;
     const ContactMeasures *measures = nullptr; ///< of the last step
     const Constraints *rows = nullptr;
     double worst_complementarity_time = 0., worst_balance_time = 0.;

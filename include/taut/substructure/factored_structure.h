@@ -120,7 +120,7 @@ namespace taut
                        const std::vector<ScaledMatrix> &summands) const;
     void check_digits(std::size_t k, double loss) const;
     void factor_body(std::size_t k, bool use_amplitudes);
-    bool take_apart(std::size_t k, bool use_amplitudes);
+    bool free_motions_apart(std::size_t k, bool use_amplitudes);
     bool set_rigid_body_modes(std::size_t k);
 
     const Structure &bodies;

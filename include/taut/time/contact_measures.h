@@ -16,7 +16,7 @@
 namespace taut
 {
   /**
-   * Measures of the contacts of a run that show whether the scheme suits them. The certificate of a
+   * Measures of the contacts of a run that show whether the scheme suits them. The residuals of a
    * step shows only that its equations are solved.
    *
    * Energy and momentum: see EnergyAccount.

@@ -4,7 +4,7 @@
 
 #include <taut/base/start.h>
 #include <taut/interface/constraints.h>
-#include <taut/time/certificate.h>
+#include <taut/time/residuals.h>
 #include <taut/time/state.h>
 #include <taut/time/step_parameters.h>
 
@@ -12,12 +12,12 @@
 
 namespace taut
 {
-  /// The start of a run, the reference of its motions, and the certificate of the equilibrium.
+  /// The start of a run, the reference of its motions, and the residuals of the equilibrium.
   struct InitialState
   {
     Reference reference;
     State state;
-    Certificate certificate;
+    Residuals residuals;
     std::vector<char> linearised; ///< for each body of all ranks: was linearised here
     std::size_t n_kept = 0;       ///< turning constraints that keep their direction from here on
     std::string repeated_joints;  ///< names of those at rest, see RepeatedRows

@@ -91,7 +91,7 @@ namespace taut
     Motion(Motion &other, double step, const StepParameters &steps,
            std::vector<LongestStep> longest_steps, long n_steps);
 
-    /// Advances by one accepted step. Throws UserError with time and constraint if its certificate
+    /// Advances by one accepted step. Throws UserError with time and constraint if its residuals
     /// exceeds the contact tolerance. After any exception the motion is that before the step.
     void advance();
 
@@ -107,7 +107,7 @@ namespace taut
 
     /// State after the last step, or at the start, and its residuals.
     const State &state() const;
-    const Certificate &certificate() const;
+    const Residuals &residuals() const;
 
     /// What the last step tells; empty before the first step.
     const StepReport &report() const;

@@ -25,14 +25,14 @@ namespace taut
   /// What the rows of the constraints have at one time, equal on all ranks.
   struct RowStates
   {
-    std::vector<double> multiplier;    ///< N, or its mean over the step [N, N m]
-    std::vector<double> gap;           ///< D of the complementarity conditions [m, rad]
-    std::vector<double> geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: the spring is
-                                       ///< compressed [m, rad]
-    std::vector<double> gap_rate;      ///< D', only with mean forces [m/s, rad/s]
+    std::vector<double> multiplier;          ///< N, or its mean over the step [N, N m]
+    std::vector<double> complementarity_gap; ///< D of the complementarity conditions [m, rad]
+    std::vector<double> distance; ///< B^T (U_ref + U) + gap at U = 0; negative: the spring is
+                                  ///< compressed [m, rad]
+    std::vector<double> rate;     ///< D', only with mean forces [m/s, rad/s]
 
     /// Compression of each row's spring and its rates, integrated in time as a body [m, rad].
-    struct LinkSpring
+    struct Spring
     {
       double u = 0., v = 0., a = 0., du = 0.;
 
@@ -42,12 +42,12 @@ namespace taut
         archive &u &v &a &du;
       }
     };
-    std::vector<LinkSpring> link_springs;
+    std::vector<Spring> springs;
 
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &multiplier &gap &geometric_gap &gap_rate &link_springs;
+      archive &multiplier &complementarity_gap &distance &rate &springs;
     }
   };
 
@@ -85,9 +85,9 @@ namespace taut
     State state;
     for (BodyVectors *v : state.of_bodies())
       *v = structure.zero();
-    for (std::vector<double> *v : {&state.multiplier, &state.gap, &state.geometric_gap})
+    for (std::vector<double> *v : {&state.multiplier, &state.complementarity_gap, &state.distance})
       v->assign(n_constraints, 0.);
-    state.link_springs.resize(n_constraints);
+    state.springs.resize(n_constraints);
     return state;
   }
 

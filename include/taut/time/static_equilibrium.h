@@ -3,7 +3,7 @@
 #define taut_static_equilibrium_h
 
 #include <taut/interface/constraints.h>
-#include <taut/time/certificate.h>
+#include <taut/time/residuals.h>
 #include <taut/time/step_parameters.h>
 
 #include <vector>
@@ -13,11 +13,11 @@ namespace taut
   /// Displacements, contact forces and gaps at rest.
   struct StaticState
   {
-    BodyVectors displacement;          ///< U [m, rad]
-    std::vector<double> multiplier;    ///< N [N, N m]
-    std::vector<double> gap;           ///< D [m, rad]
-    std::vector<double> geometric_gap; ///< D - S N [m, rad]
-    Certificate certificate;
+    BodyVectors displacement;       ///< U [m, rad]
+    std::vector<double> multiplier; ///< N [N, N m]
+    std::vector<double> gap;        ///< D [m, rad]
+    std::vector<double> distance;   ///< D - S N [m, rad]
+    Residuals residuals;
     std::vector<std::size_t> repeated_joints = {}; ///< see RepeatedRows
   };
 
@@ -25,7 +25,7 @@ namespace taut
    * Solves K U = P(t) + B N, or f(U) = P(t) + B N of bodies that are not linear, with the links'
    * complementarity, without inertia; t in s. Bodies that only links hold keep the amplitudes of
    * their rigid body modes as unknowns. Called by all ranks together. Throws BodyNotHeld,
-   * ContradictoryRows, or UserError if the certificate misses the contact tolerance.
+   * ContradictoryRows, or UserError if the residuals misses the contact tolerance.
    */
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, double t);

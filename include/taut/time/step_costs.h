@@ -21,7 +21,7 @@ namespace taut
     bodies,      ///< solve of the bodies with the multipliers
     nonlinear,   ///< forces of bodies of large motions
     state,       ///< and balance at the end of the step
-    certificate,
+    residuals,
     projection, ///< of velocities
     energy,
     measures, ///< of the contacts

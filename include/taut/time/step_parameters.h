@@ -50,7 +50,7 @@ namespace taut
     std::string local_solver = "block tridiagonal"; ///< see make_local_solver()
     InterfaceParameters interface;
     std::string complementarity = "semismooth Newton"; ///< or "energy-ordered"
-    double contact_tolerance = 1e-8;                   ///< bound of Certificate::max() [1]
+    double contact_tolerance = 1e-8;                   ///< bound of Residuals::max() [1]
 
     /// Declares the members in subsection "Solver".
     void declare_parameters(dealii::ParameterHandler &prm);

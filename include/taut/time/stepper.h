@@ -28,7 +28,7 @@ namespace taut
     /// without an equilibrium, or if a scheme is known to fail on a constraint.
     explicit Stepper(Lasting<System> system, const StepperOptions &options = StepperOptions());
 
-    /// Advances by one step. Throws UserError with time and constraint if its certificate exceeds
+    /// Advances by one step. Throws UserError with time and constraint if its residuals exceeds
     /// the contact tolerance, and what bodies, loads and geometries throw. After any exception the
     /// motion is that before the step, or where a step is divided, before its last part.
     void advance();
@@ -37,8 +37,8 @@ namespace taut
     const State &state() const { return motion.state(); }
     const Reference &reference() const { return motion.reference(); }
 
-    /// Certificate of the last step, or of the equilibrium before the first step.
-    const Certificate &certificate() const { return motion.certificate(); }
+    /// Residuals of the last step, or of the equilibrium before the first step.
+    const Residuals &residuals() const { return motion.residuals(); }
 
     /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return motion.measures(); }

@@ -68,7 +68,7 @@ namespace
           of_bodies[k].add((*v)[k]);
       of_rows.add(view.state.time);
       of_rows.add(view.state.multiplier);
-      of_rows.add(view.state.gap);
+      of_rows.add(view.state.complementarity_gap);
       structure = &view.structure;
       last = &view.state;
     }

@@ -42,7 +42,7 @@ namespace
   void record(Figures &f, const taut::StepView &view)
   {
     const double t = view.state.time, force = view.state.multiplier[0],
-                 gap = view.state.geometric_gap[0];
+                 gap = view.state.distance[0];
     const double exact = t < .1 ? .1 - t : t < 2.1 ? 0. : t - 2.1;
     f.motion += (gap - exact) * (gap - exact);
     if (++f.n_steps == 0)

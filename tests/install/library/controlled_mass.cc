@@ -55,6 +55,6 @@ int main()
   }
   const double rest = stepper.displacement(height);
   std::printf("%s: %.9f m, certificate %.1e\n", stepper.scheme().c_str(), rest,
-              stepper.certificate().max());
-  return std::fabs(rest + .1) < 1e-6 && largest > 0. && stepper.certificate().max() < 1e-10 ? 0 : 1;
+              stepper.residuals().max());
+  return std::fabs(rest + .1) < 1e-6 && largest > 0. && stepper.residuals().max() < 1e-10 ? 0 : 1;
 }

@@ -98,7 +98,7 @@ int main(int argc, char **argv)
   }
   std::printf("%u DoFs, %u in contact, %u different; displacements differ by %.1e; certificate "
               "%.1e, %u active-set iterations\n",
-              dofs.n_dofs(), n_closed, n_different, error, state.certificate.max(),
-              state.certificate.iterations);
+              dofs.n_dofs(), n_closed, n_different, error, state.residuals.max(),
+              state.residuals.iterations);
   return n_different == 0 && error < 1e-9 && n_closed > 0 ? 0 : 1;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_step_history_h
-#define taut_step_history_h
+#ifndef taut_body_step_h
+#define taut_body_step_h
 
-#include "time/balance_certificate.h"
+#include "time/balance_residual.h"
 #include "time/prescribed_motions.h"
 #include "time/step_equations.h"
 #include <taut/time/state.h>
@@ -15,11 +15,11 @@ namespace taut
   /// The history of a step: the right-hand side P^ of each body of this rank without multipliers,
   /// and the state at the end of the step for known increments. Vectors with separate lifetimes
   /// share storage under different names.
-  class StepHistory
+  class BodyStep
   {
   public:
     /// The arguments are kept by reference.
-    StepHistory(const Structure &structure, const Reference &reference, const StepMethod &method);
+    BodyStep(const Structure &structure, const Reference &reference, const StepMethod &method);
 
     /// Sets the external forces at a time [s], minus the forces of the reference.
     void set_external_forces(double time);

@@ -3,7 +3,7 @@
 // on; what keeps an object by reference takes no temporary one; errors name options of the library.
 // Sources: the same motion without the exception; the interface.
 #include "common.h"
-#include "fuzz/door_bodies.h"
+#include "fuzz/library_bodies.h"
 #include "one_body.h"
 
 #include <taut/interface/contact_schur_operator.h>
@@ -47,7 +47,7 @@ namespace
       M->add(0, 0, 1.);
       M->add(1, 1, 2.);
       add_springs(k, *K);
-      constant_force = {0., -door::gravity};
+      constant_force = {0., -library::gravity};
       taut::LinearForm form;
       form.add(1, 1.);
       add_force(form,
@@ -152,8 +152,8 @@ namespace
     {
       const taut::State &s = stepper.state();
       std::vector<double> result = {s.time, stepper.multiplier(stop), stepper.gap(stop),
-                                    stepper.certificate().complementarity,
-                                    stepper.certificate().balance};
+                                    stepper.residuals().complementarity,
+                                    stepper.residuals().balance};
       for (const taut::BodyVectors *v : {&s.U, &s.V, &s.A, &s.dU, &s.V_old, &s.KU, &s.balance})
         result.insert(result.end(), v->front().begin(), v->front().end());
       return result;
@@ -166,8 +166,8 @@ namespace
   };
 
   // What keeps an object takes none that is gone at once.
-  template <typename Kept, typename... With>
-  constexpr bool takes = std::is_constructible<Kept, With...>::value;
+  template <typename ReusedValues, typename... With>
+  constexpr bool takes = std::is_constructible<ReusedValues, With...>::value;
   static_assert(takes<taut::Stepper, const taut::System &>, "");
   static_assert(!takes<taut::Stepper, taut::System>, "");
   static_assert(!takes<taut::Constraints, taut::Structure, std::vector<taut::ConstraintData>>, "");
@@ -186,7 +186,7 @@ namespace
 
 // Every call of a function of the author fails once, within some steps before and after the row
 // meets its stop: the motion is then that before the step, and goes on as if nothing had been.
-TEST(DoorAdvance, an_error_leaves_the_motion_before_the_step)
+TEST(LibrarySteps, an_error_leaves_the_motion_before_the_step)
 {
   constexpr int n_steps = 60;
   for (const bool linear : {true, false})
@@ -238,7 +238,7 @@ TEST(DoorAdvance, an_error_leaves_the_motion_before_the_step)
 }
 
 // Newton's method knows the derivative of a damper whose force is cubic in the velocity.
-TEST(DoorAdvance, a_damping_material_takes_few_iterations)
+TEST(LibrarySteps, a_damping_material_takes_few_iterations)
 {
   for (const char *scheme : {"backward Euler", "Moreau-Jean"})
   {
@@ -251,9 +251,9 @@ TEST(DoorAdvance, a_damping_material_takes_few_iterations)
   }
 }
 
-TEST(DoorAdvance, errors_name_options_of_the_library)
+TEST(LibrarySteps, errors_name_options_of_the_library)
 {
-  verification::OneBody<door::Chain> one("mass", "mass", std::vector<double>{1.},
+  verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
                                          std::vector<double>{100.});
   one.system.add(
       taut::Constraint::unilateral("stop", one.system.displacement(0, {}, {0., 1., 0.})));

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace door
+namespace library
 {
   constexpr double gravity = 9.81, not_a_number = std::numeric_limits<double>::quiet_NaN(),
                    infinite = std::numeric_limits<double>::infinity();
@@ -228,6 +228,6 @@ namespace door
       return {{{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}, {0, 1, 2}};
     }
   };
-} // namespace door
+} // namespace library
 
 #endif

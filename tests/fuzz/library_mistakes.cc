@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "door_script.h"
+#include "library_script.h"
 
 #include <iostream>
 
-namespace door
+namespace library
 {
   using taut::Constraint;
 
@@ -286,4 +286,4 @@ namespace door
         {"ragged form", "indices", [&] { stepper.displacement(ragged); }}};
     make(calls, list[calls.below(std::size(list))]);
   }
-} // namespace door
+} // namespace library

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_kept_h
-#define taut_kept_h
+#ifndef taut_reused_values_h
+#define taut_reused_values_h
 
 #include <map>
 #include <string>
@@ -14,7 +14,7 @@ namespace taut
    * memory is bounded by two runs.
    */
   template <typename Value>
-  class Kept
+  class ReusedValues
   {
   public:
     /// Call it when a run begins.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_certificate_h
-#define taut_certificate_h
+#ifndef taut_residuals_h
+#define taut_residuals_h
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@ namespace taut
   /// The residuals of an accepted step. They are computed from M, C, K, the states and the
   /// definition of the step, without the factors of A. Residuals are relative: rounding is 1e-16 to
   /// 1e-11, and 1 is wrong.
-  struct Certificate
+  struct Residuals
   {
     /// Largest residual of a constraint over the terms of its gap: |min(F_ii N_i, D_i)|, or |D_i|
     /// if bilateral.

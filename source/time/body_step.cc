@@ -2,7 +2,7 @@
 #include "time/cache_tiles.h"
 
 #include "base/instruction_set.h"
-#include "time/step_history.h"
+#include "time/body_step.h"
 
 #include <algorithm>
 
@@ -46,8 +46,8 @@ namespace taut
     };
   } // namespace
 
-  StepHistory::StepHistory(const Structure &structure, const Reference &reference,
-                           const StepMethod &method)
+  BodyStep::BodyStep(const Structure &structure, const Reference &reference,
+                     const StepMethod &method)
       : structure(structure), reference(reference), method(method),
         motions(structure, reference, method)
   {
@@ -66,13 +66,13 @@ namespace taut
     }
   }
 
-  void StepHistory::set_external_forces(const double time)
+  void BodyStep::set_external_forces(const double time)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       set_external_force(k, time);
   }
 
-  void StepHistory::set_external_force(const std::size_t k, const double time)
+  void BodyStep::set_external_force(const std::size_t k, const double time)
   {
     const Substructure &body = structure[k];
     std::vector<double> &P = step_forces.P[k];
@@ -83,7 +83,7 @@ namespace taut
     step_forces.external_size[k] = largest(body, P);
   }
 
-  void StepHistory::set_loads(const StepEquations &equations, State &state)
+  void BodyStep::set_loads(const StepEquations &equations, State &state)
   {
     motions.set(state);
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -98,7 +98,7 @@ namespace taut
     }
   }
 
-  void StepHistory::set_load(const std::size_t k, const State &state)
+  void BodyStep::set_load(const std::size_t k, const State &state)
   {
     const StepCoefficients &c = method.c;
     const Substructure &body = structure[k];
@@ -155,7 +155,7 @@ namespace taut
                 });
   }
 
-  void StepHistory::exchange(State &state)
+  void BodyStep::exchange(State &state)
   {
     exchange_old(state);
     state.V_old.swap(state.V);
@@ -164,7 +164,7 @@ namespace taut
     is_exchanged = true;
   }
 
-  void StepHistory::take_back(State &state)
+  void BodyStep::take_back(State &state)
   {
     if (!is_exchanged)
       return;
@@ -173,7 +173,7 @@ namespace taut
     is_exchanged = false;
   }
 
-  void StepHistory::exchange_old(State &state)
+  void BodyStep::exchange_old(State &state)
   {
     StepForces &f = step_forces;
     state.U.swap(f.old_U);
@@ -184,8 +184,8 @@ namespace taut
     state.balance.swap(f.old_balance);
   }
 
-  void StepHistory::accept(const std::size_t k, const std::size_t begin, const std::size_t end,
-                           State &state) const
+  void BodyStep::accept(const std::size_t k, const std::size_t begin, const std::size_t end,
+                        State &state) const
   {
     const StepCoefficients &c = method.c;
     const double velocity = c.velocity, acceleration = c.acceleration;
@@ -210,7 +210,7 @@ namespace taut
                     });
   }
 
-  void StepHistory::set_lacking(const StepEquations &equations, State &state)
+  void BodyStep::set_lacking(const StepEquations &equations, State &state)
   {
     const StepCoefficients &c = method.c;
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
@@ -230,7 +230,7 @@ namespace taut
     }
   }
 
-  void StepHistory::add_correction(State &state)
+  void BodyStep::add_correction(State &state)
   {
     const StepCoefficients &c = method.c;
     for (std::size_t k = 0; k < structure.size(); ++k)

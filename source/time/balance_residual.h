@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_balance_certificate_h
-#define taut_balance_certificate_h
+#ifndef taut_balance_residual_h
+#define taut_balance_residual_h
 
 #include "time/matrix_norms.h"
 #include "time/nonlinear_bodies.h"
@@ -17,8 +17,8 @@ namespace taut
   /// External forces on the bodies of this rank, and their state before the step.
   struct StepForces
   {
-    BodyVectors P;                      ///< external force minus that of the reference [N, N m]
-    std::vector<PerKind> external_size; ///< largest entries of P of each body
+    BodyVectors P;                     ///< external force minus that of the reference [N, N m]
+    std::vector<ByKind> external_size; ///< largest entries of P of each body
 
     BodyVectors old_U, old_V_old, old_A; ///< as in State
     BodyVectors old_dU, old_KU, old_balance;
@@ -30,13 +30,13 @@ namespace taut
    * of A take no part. It is relative to the size of its terms, for displacements and for slopes
    * separately.
    */
-  class BalanceCertificate
+  class BalanceResidual
   {
   public:
     /// The arguments are kept by reference.
-    BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                       const Reference &reference, const StepMethod &method,
-                       const NonlinearBodies &nonlinear);
+    BalanceResidual(const Structure &structure, const Constraints &constraints,
+                    const Reference &reference, const StepMethod &method,
+                    const NonlinearBodies &nonlinear);
 
     /// Sets displacement, velocity and acceleration of body k in rows begin to end - 1.
     using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
@@ -68,8 +68,8 @@ namespace taut
     /// Largest entries of the residual of a body and of its terms.
     struct Sizes
     {
-      PerKind residual = {0., 0.}, increment = {0., 0.}, velocity = {0., 0.},
-              displacement = {0., 0.};
+      ByKind residual = {0., 0.}, increment = {0., 0.}, velocity = {0., 0.},
+             displacement = {0., 0.};
     };
 
     Sizes measure_body(std::size_t k, const StepForces &forces, bool has_impulses, State &state,
@@ -81,13 +81,13 @@ namespace taut
     const Constraints &constraints;
     const StepMethod &method;
     const NonlinearBodies &nonlinear;
-    std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
-    std::vector<PerKind> reference_force;       ///< largest entry, of each body [N, N m]
-    std::vector<PerKind> contact_force;         ///< largest of a constraint, on each body [N, N m]
-    BodyVectors impulses;                       ///< forces in this step only
-    std::vector<double> mean_A;                 ///< mean acceleration of one body in the step
-    std::vector<double> inertia, damping;       ///< forces in the rows of a tile
-    std::vector<double> work_of_balance;        ///< of each body [J]
+    std::vector<std::array<RowSumNorm, 3>> norms; ///< of M, C, K of each body
+    std::vector<ByKind> reference_force;          ///< largest entry, of each body [N, N m]
+    std::vector<ByKind> contact_force;    ///< largest of a constraint, on each body [N, N m]
+    BodyVectors impulses;                 ///< forces in this step only
+    std::vector<double> mean_A;           ///< mean acceleration of one body in the step
+    std::vector<double> inertia, damping; ///< forces in the rows of a tile
+    std::vector<double> work_of_balance;  ///< of each body [J]
     double largest_residual = 0.;
     std::size_t worst = 0;
     bool may_be_cancellation = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/link_flexibilities.h"
+#include "time/row_flexibilities.h"
 
 #include "time/contact_resolution.h"
 
@@ -13,8 +13,8 @@ namespace taut
     constexpr double shift_of_dependent_rows = 1e-9;
   } // namespace
 
-  LinkFlexibilities::LinkFlexibilities(const Structure &structure, const Constraints &constraints,
-                                       const SolverParameters &parameters, const double step)
+  RowFlexibilities::RowFlexibilities(const Structure &structure, const Constraints &constraints,
+                                     const SolverParameters &parameters, const double step)
       : structure(structure), constraints(constraints), c(generalised_alpha(step, .8)),
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, constraints))
@@ -26,7 +26,7 @@ namespace taut
     schur->setup(S);
   }
 
-  double LinkFlexibilities::of_body(const Term &term) const
+  double RowFlexibilities::of_body(const Term &term) const
   {
     double sum = solvers[term.substructure].flexibility(term.form);
     const auto &modes = solvers.rigid_body_modes()[term.substructure];
@@ -35,8 +35,8 @@ namespace taut
     return sum;
   }
 
-  void LinkFlexibilities::column(const std::size_t i, const std::vector<std::size_t> &closed,
-                                 std::vector<double> &result) const
+  void RowFlexibilities::column(const std::size_t i, const std::vector<std::size_t> &closed,
+                                std::vector<double> &result) const
   {
     ComplementarityOperator &F = schur->matrix();
     std::vector<std::size_t> set;
@@ -57,7 +57,7 @@ namespace taut
   }
 
   /// Adds rigid body modes of bodies whose inertia is lost in their stiffness.
-  void LinkFlexibilities::add_modes(const std::size_t i, std::vector<double> &result) const
+  void RowFlexibilities::add_modes(const std::size_t i, std::vector<double> &result) const
   {
     if (!solvers.has_rigid_body_modes())
       return;

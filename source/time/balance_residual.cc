@@ -3,7 +3,7 @@
 
 #include "base/instruction_set.h"
 #include "base/text.h"
-#include "time/balance_certificate.h"
+#include "time/balance_residual.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,17 +72,17 @@ namespace taut
     }
   } // namespace
 
-  BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                                         const Reference &reference, const StepMethod &method,
-                                         const NonlinearBodies &nonlinear)
+  BalanceResidual::BalanceResidual(const Structure &structure, const Constraints &constraints,
+                                   const Reference &reference, const StepMethod &method,
+                                   const NonlinearBodies &nonlinear)
       : structure(structure), constraints(constraints), method(method), nonlinear(nonlinear),
         impulses(structure.zero())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
-                       KindNorm(body, body.stiffness())});
+      norms.push_back({RowSumNorm(body, body.mass()), RowSumNorm(body, body.damping()),
+                       RowSumNorm(body, body.stiffness())});
       reference_force.push_back(largest(body, reference.force[k]));
       mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
       inertia.resize(std::max(inertia.size(), tile_size(body)));
@@ -90,9 +90,9 @@ namespace taut
     damping.resize(inertia.size());
   }
 
-  void BalanceCertificate::measure(const StepForces &forces, const std::vector<double> &in_balance,
-                                   const std::vector<double> &impulsive, State &state,
-                                   const SetRows &set_rows)
+  void BalanceResidual::measure(const StepForces &forces, const std::vector<double> &in_balance,
+                                const std::vector<double> &impulsive, State &state,
+                                const SetRows &set_rows)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
@@ -122,10 +122,10 @@ namespace taut
     }
   }
 
-  BalanceCertificate::Sizes BalanceCertificate::measure_body(const std::size_t k,
-                                                             const StepForces &forces,
-                                                             const bool has_impulses, State &state,
-                                                             const SetRows &set_rows)
+  BalanceResidual::Sizes BalanceResidual::measure_body(const std::size_t k,
+                                                       const StepForces &forces,
+                                                       const bool has_impulses, State &state,
+                                                       const SetRows &set_rows)
   {
     const StepCoefficients &c = method.c;
     const double kappa = c.old_balance();
@@ -176,16 +176,16 @@ namespace taut
                   size);
     };
     visit_tiles(body, measure_tile);
-    const std::array<PerKind, 4> found = largest.result();
+    const std::array<ByKind, 4> found = largest.result();
     return {found[0], found[1], found[2], found[3]};
   }
 
-  double BalanceCertificate::relative_residual(const std::size_t k, const StepForces &forces,
-                                               const Sizes &sizes, const double time)
+  double BalanceResidual::relative_residual(const std::size_t k, const StepForces &forces,
+                                            const Sizes &sizes, const double time)
   {
     const StepCoefficients &c = method.c;
     // P and B N may cancel each other and the forces of the reference: each counts.
-    PerKind force = forces.external_size[k];
+    ByKind force = forces.external_size[k];
     for (int kind = 0; kind < 2; ++kind)
       force[kind] += contact_force[k][kind] + reference_force[k][kind];
     for (int kind = 0; kind < 2; ++kind)
@@ -195,13 +195,13 @@ namespace taut
         check_size(structure[k], force, sizes.displacement, sizes.velocity,
                    c.is_at_rest() ? "static equilibrium: " : to_text("at t = ", time, " s: "));
 
-    PerKind inertial = sizes.increment;
+    ByKind inertial = sizes.increment;
     for (double &d : inertial)
       d *= c.mass_factor();
-    const PerKind by_mass = norms[k][0].times(inertial),
-                  by_damping = norms[k][1].times(sizes.velocity),
-                  by_stiffness = norms[k][2].times(sizes.displacement),
-                  of_increment = norms[k][2].times(sizes.increment);
+    const ByKind by_mass = norms[k][0].times(inertial),
+                 by_damping = norms[k][1].times(sizes.velocity),
+                 by_stiffness = norms[k][2].times(sizes.displacement),
+                 of_increment = norms[k][2].times(sizes.increment);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {

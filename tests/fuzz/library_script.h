@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A sequence of calls of the door: a system with an exact result, and mistakes between the calls.
+// A sequence of calls of the library: a system with an exact result, and mistakes between the calls.
 #ifndef taut_tests_door_script_h
 #define taut_tests_door_script_h
 
-#include "door_bodies.h"
+#include "library_bodies.h"
 
 #include <taut/time/stepper.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace door
+namespace library
 {
   /// A mistake of the library: a result that is not exact, or bad input that was taken.
   class Failure : public std::logic_error
@@ -64,6 +64,6 @@ namespace door
   void make_mistake(Calls &calls, taut::System &system, std::size_t chain);
   void make_mistake_with_options(Calls &calls, const taut::System &system);
   void make_mistake_with_stepper(Calls &calls, taut::System &system, taut::Stepper &stepper);
-} // namespace door
+} // namespace library
 
 #endif

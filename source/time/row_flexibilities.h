@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_link_flexibilities_h
-#define taut_link_flexibilities_h
+#ifndef taut_row_flexibilities_h
+#define taut_row_flexibilities_h
 
 #include "interface/schur_complement.h"
 #include <taut/time/integrator.h>
@@ -13,12 +13,12 @@ namespace taut
 {
   /// F of the bodies in one step of generalised-alpha without springs of the constraints, for
   /// ContactResolution.
-  class LinkFlexibilities
+  class RowFlexibilities
   {
   public:
     /// @p step in [s]; references are kept. Called, as all functions, by all ranks together.
-    LinkFlexibilities(const Structure &structure, const Constraints &constraints,
-                      const SolverParameters &parameters, double step);
+    RowFlexibilities(const Structure &structure, const Constraints &constraints,
+                     const SolverParameters &parameters, double step);
 
     /// S of a constraint with its damper [m/N, rad/(N m)].
     double compliance(const std::size_t i) const { return S[i]; }

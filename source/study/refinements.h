@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_dials_h
-#define taut_dials_h
+#ifndef taut_refinements_h
+#define taut_refinements_h
 
 #include <map>
 #include <string>
@@ -9,7 +9,7 @@
 namespace taut
 {
   /// What a search refines: the time step, or all elements of a scene together.
-  struct Dial
+  struct Refinement
   {
     /// How a value changes when its size is halved: it is halved, doubled or has one added.
     enum class Kind
@@ -39,7 +39,7 @@ namespace taut
 
   /// The time step, and the mesh if the scene has elements. @p scene is all entries by path. The
   /// coarsest values are eight times those of the file, or as coarse as whole numbers allow.
-  std::vector<Dial> find_dials(const std::map<std::string, std::string> &scene);
+  std::vector<Refinement> find_refinements(const std::map<std::string, std::string> &scene);
 } // namespace taut
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "study/dials.h"
+#include "study/refinements.h"
 #include <taut/output/table_file.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace taut
     }
 
     /// How often the size of a group can be doubled.
-    int coarser(const Dial::Group &group)
+    int coarser(const Refinement::Group &group)
     {
-      if (group.kind == Dial::Kind::size)
+      if (group.kind == Refinement::Kind::size)
         return most_coarser;
       const int value = static_cast<int>(group.value);
-      if (group.kind == Dial::Kind::halvings)
+      if (group.kind == Refinement::Kind::halvings)
         return std::min(value, most_coarser);
       int n = 0;
       while (n < most_coarser && value % (2 << n) == 0)
@@ -31,28 +31,30 @@ namespace taut
       return n;
     }
 
-    void add(Dial &dial, const Dial::Kind kind, const std::string &path, const std::string &text)
+    void add(Refinement &refinement, const Refinement::Kind kind, const std::string &path,
+             const std::string &text)
     {
       const double value = std::stod(text);
-      for (Dial::Group &group : dial.groups)
+      for (Refinement::Group &group : refinement.groups)
         if (group.kind == kind && group.value == value)
         {
           group.entries.push_back(path);
           return;
         }
-      const std::size_t n = dial.groups.size() + 1;
-      dial.groups.push_back({n > 1 ? "mesh " + std::to_string(n) : "mesh", kind, value, {path}});
+      const std::size_t n = refinement.groups.size() + 1;
+      refinement.groups.push_back(
+          {n > 1 ? "mesh " + std::to_string(n) : "mesh", kind, value, {path}});
     }
   } // namespace
 
-  std::string Dial::Group::halved(const int n) const
+  std::string Refinement::Group::halved(const int n) const
   {
     if (kind == Kind::size)
       return csv_number(std::ldexp(value, -n));
     return std::to_string(std::lround(kind == Kind::count ? std::ldexp(value, n) : value + n));
   }
 
-  std::vector<std::string> Dial::values(const int level) const
+  std::vector<std::string> Refinement::values(const int level) const
   {
     std::vector<std::string> list;
     for (const Group &group : groups)
@@ -60,21 +62,22 @@ namespace taut
     return list;
   }
 
-  std::vector<Dial> find_dials(const std::map<std::string, std::string> &scene)
+  std::vector<Refinement> find_refinements(const std::map<std::string, std::string> &scene)
   {
-    const Dial step{{{"step", Dial::Kind::size, std::stod(scene.at("Time/Step")), {"Time/Step"}}},
-                    most_coarser};
-    Dial mesh{{}, most_coarser};
+    const Refinement step{
+        {{"step", Refinement::Kind::size, std::stod(scene.at("Time/Step")), {"Time/Step"}}},
+        most_coarser};
+    Refinement mesh{{}, most_coarser};
     for (const auto &[path, text] : scene)
       if (ends(path, "/Element size"))
-        add(mesh, Dial::Kind::size, path, text);
+        add(mesh, Refinement::Kind::size, path, text);
       else if (ends(path, "/Elements"))
-        add(mesh, Dial::Kind::count, path, text);
+        add(mesh, Refinement::Kind::count, path, text);
       else if (ends(path, "/Mesh/Refinements"))
-        add(mesh, Dial::Kind::halvings, path, text);
+        add(mesh, Refinement::Kind::halvings, path, text);
     if (mesh.groups.empty())
       return {step};
-    for (const Dial::Group &group : mesh.groups)
+    for (const Refinement::Group &group : mesh.groups)
       mesh.n_coarser = std::min(mesh.n_coarser, coarser(group));
     return {step, mesh};
   }

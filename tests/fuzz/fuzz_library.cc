@@ -2,7 +2,7 @@
 // Claim: whatever calls a program makes, they give exact results or a UserError of one line that
 // names what is wrong, and leave no trace then. Source: systems at rest by statics; free fall and a
 // mass on a spring by backward Euler and the trapezoidal rule for one number.
-#include "door_systems.h"
+#include "library_systems.h"
 
 #include <boost/program_options.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace
 {
-  using namespace door;
+  using namespace library;
 
   volatile std::sig_atomic_t sequence = 0;
 

@@ -2,7 +2,7 @@
 // Claim: what the library says and does beside the motion: schemes, bodies and observers of a
 // program. Sources: at the tests.
 #include "common.h"
-#include "fuzz/door_bodies.h"
+#include "fuzz/library_bodies.h"
 #include "one_body.h"
 
 #include <taut/base/registry.h>
@@ -25,7 +25,7 @@ namespace
 
 // A load 0 1 1 0 0 at the ends of five steps of a free mass: its impulses over F h are those of the
 // table in doc/library.md, from the difference equations of the schemes.
-TEST(DoorAdvance, impulses_of_a_load_that_jumps)
+TEST(LibrarySteps, impulses_of_a_load_that_jumps)
 {
   // BDF2 has 3 v_n - 4 v_(n-1) + v_(n-2) = 2 h F_n / m, so that impulses are 2/3 F_n + 1/3 of the
   // one before. Generalised-alpha follows from its four equations with rho = 0.8.
@@ -56,11 +56,11 @@ TEST(DoorAdvance, impulses_of_a_load_that_jumps)
     system.add("mass",
                [&]
                {
-                 auto body = std::make_unique<door::Chain>("mass", std::vector<double>{mass},
+                 auto body = std::make_unique<library::Chain>("mass", std::vector<double>{mass},
                                                            std::vector<double>{0.});
                  taut::LinearForm form;
                  form.add(0, 1.);
-                 body->add_force(form, mass * door::gravity); // no weight
+                 body->add_force(form, mass * library::gravity); // no weight
                  body->add_force(form, [&](double) { return now; });
                  return body;
                });
@@ -110,12 +110,12 @@ namespace
   const taut::Register<taut::TimeIntegrator, Layered> layered("layered", "of a test");
 } // namespace
 
-TEST(DoorAdvance, entries_of_a_scheme_are_read_wherever_they_are)
+TEST(LibrarySteps, entries_of_a_scheme_are_read_wherever_they_are)
 {
   using Entries = std::map<std::string, std::string>;
   const auto scheme = [](const Entries &entries)
   {
-    verification::OneBody<door::Chain> one("mass", "mass", std::vector<double>{1.},
+    verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
                                            std::vector<double>{1.});
     taut::StepperOptions options;
     options.scheme = "layered";
@@ -131,16 +131,16 @@ TEST(DoorAdvance, entries_of_a_scheme_are_read_wherever_they_are)
 }
 
 // A body that nothing holds, or that has no stiffness, says so in each form of F.
-TEST(DoorAdvance, bodies_that_nothing_holds)
+TEST(LibrarySteps, bodies_that_nothing_holds)
 {
   for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
     for (const bool has_other : {false, true})
     {
       taut::System system;
-      system.add("loose", [] { return door::chain_of("loose", {1., 2.}, {0., 30.}); });
+      system.add("loose", [] { return library::chain_of("loose", {1., 2.}, {0., 30.}); });
       if (has_other)
       {
-        const auto held = system.add("held", [] { return door::chain_of("held", {1.}, {5.}); });
+        const auto held = system.add("held", [] { return library::chain_of("held", {1.}, {5.}); });
         system.add(
             taut::Constraint::unilateral("stop", system.displacement(held, {}, {0., 1., 0.})));
       }
@@ -154,7 +154,7 @@ TEST(DoorAdvance, bodies_that_nothing_holds)
       taut::Stepper stepper(system, options);
       for (int k = 0; k < 10; ++k)
         stepper.advance();
-      EXPECT_NEAR(stepper.state().V[0][0], -door::gravity * .1, 1e-9) << form;
+      EXPECT_NEAR(stepper.state().V[0][0], -library::gravity * .1, 1e-9) << form;
     }
 }
 
@@ -198,7 +198,7 @@ namespace
   };
 } // namespace
 
-TEST(DoorAdvance, a_body_without_stiffness_is_named)
+TEST(LibrarySteps, a_body_without_stiffness_is_named)
 {
   for (const bool sparse : {true, false})
     for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
@@ -213,13 +213,13 @@ TEST(DoorAdvance, a_body_without_stiffness_is_named)
     }
 }
 
-TEST(DoorAdvance, all_observers_finish)
+TEST(LibrarySteps, all_observers_finish)
 {
   const std::string folder =
       (std::filesystem::temp_directory_path() / ("taut_finish_" + std::to_string(getpid())))
           .string();
   std::string said;
-  verification::OneBody<door::Chain> one("mass", "mass", std::vector<double>{1.},
+  verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
                                          std::vector<double>{1.});
   taut::Stepper stepper(one.system, verification::steps_of(1e-3, taut::Start::given));
   taut::ObservedRun run(stepper, folder);

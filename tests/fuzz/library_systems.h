@@ -3,12 +3,12 @@
 #ifndef taut_tests_door_systems_h
 #define taut_tests_door_systems_h
 
-#include "door_script.h"
+#include "library_script.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace door
+namespace library
 {
   using taut::Constraint;
   using taut::Displacement;
@@ -165,7 +165,7 @@ namespace door
       for (const double value : values)
         if (!std::isfinite(value))
           throw Failure("a result is not finite");
-      if (!(stepper.certificate().max() <= tolerance))
+      if (!(stepper.residuals().max() <= tolerance))
         throw Failure("the certificate of an accepted step misses the tolerance");
     }
 
@@ -338,6 +338,6 @@ namespace door
     std::vector<Expected> expected;
     std::vector<ExpectedForce> forces;
   };
-} // namespace door
+} // namespace library
 
 #endif

@@ -2,7 +2,7 @@
 // Claim: what a program or a scene of a plugin says that makes no sense is one UserError that names
 // the body, the constraint or the item, and leaves no trace. Source: the tables below.
 #include "common.h"
-#include "fuzz/door_bodies.h"
+#include "fuzz/library_bodies.h"
 
 #include "mechanism/mechanism.h"
 #include <taut/cable/cable.h>
@@ -13,7 +13,7 @@
 namespace
 {
   using namespace verification;
-  using namespace door;
+  using namespace library;
   using taut::Constraint;
   using taut::Scene;
 
@@ -151,7 +151,7 @@ namespace
   }
 } // namespace
 
-TEST(Door, every_defect_of_a_body_is_named)
+TEST(Library, every_defect_of_a_body_is_named)
 {
   for (int i = 0; i < n_defects; ++i)
   {
@@ -171,7 +171,7 @@ TEST(Door, every_defect_of_a_body_is_named)
   }
 }
 
-TEST(Door, forms_belong_to_their_system)
+TEST(Library, forms_belong_to_their_system)
 {
   Hanging one, other;
   other.system.add(Constraint::unilateral("own", other.height).gap(1.));
@@ -183,7 +183,7 @@ TEST(Door, forms_belong_to_their_system)
   expect_refused([&] { stepper.velocity(other.height); }, "on another system");
 }
 
-TEST(Door, a_stepper_knows_what_there_was)
+TEST(Library, a_stepper_knows_what_there_was)
 {
   Hanging hanging;
   const std::size_t stop =
@@ -205,7 +205,7 @@ TEST(Door, a_stepper_knows_what_there_was)
   EXPECT_EQ(stepper.displacement(hanging.body).size(), 2u);
 }
 
-TEST(Door, a_place_that_moves_is_watched)
+TEST(Library, a_place_that_moves_is_watched)
 {
   using Spoil = std::function<void(taut::Displacement &, double &)>;
   const std::pair<std::string, Spoil> list[] = {
@@ -234,7 +234,7 @@ TEST(Door, a_place_that_moves_is_watched)
   }
 }
 
-TEST(Door, a_body_that_is_not_linear_has_its_own_functions)
+TEST(Library, a_body_that_is_not_linear_has_its_own_functions)
 {
   for (int n = 0; n <= 4; ++n)
   {
@@ -259,7 +259,7 @@ TEST(Door, a_body_that_is_not_linear_has_its_own_functions)
   }
 }
 
-TEST(Door, values_of_a_scene_of_a_generator)
+TEST(Library, values_of_a_scene_of_a_generator)
 {
   const std::pair<std::string, std::function<void(Scene &)>> list[] = {
       {"Gravity", [](Scene &s) { s.gravity.y = not_a_number; }},
@@ -303,7 +303,7 @@ TEST(Door, values_of_a_scene_of_a_generator)
   }
 }
 
-TEST(Door, wires_and_masses_of_a_program)
+TEST(Library, wires_and_masses_of_a_program)
 {
   const Scene scene = good_scene();
   EXPECT_GT(taut::make_wire(scene.wires[0], taut::WireMotion::transverse, scene.supports)->n_dofs(),

@@ -77,7 +77,7 @@ namespace
   };
 } // namespace
 
-TEST(DoorFEBody, a_bar_hangs)
+TEST(LibraryFEBody, a_bar_hangs)
 {
   const Bar bar;
   taut::System system;
@@ -90,7 +90,7 @@ TEST(DoorFEBody, a_bar_hangs)
             std::vector<std::string>());
 }
 
-TEST(DoorFEBody, what_does_not_fit_is_named)
+TEST(LibraryFEBody, what_does_not_fit_is_named)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::function<void(Bar &)> spoils[] = {
@@ -113,7 +113,7 @@ TEST(DoorFEBody, what_does_not_fit_is_named)
   }
 }
 
-TEST(DoorFEBody, calls_that_do_not_fit_are_named)
+TEST(LibraryFEBody, calls_that_do_not_fit_are_named)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using Motion = std::function<double(double)>;
@@ -140,7 +140,7 @@ TEST(DoorFEBody, calls_that_do_not_fit_are_named)
 
 // A displacement that the constraints prescribe is no motion in time: it is where the support is,
 // and stays what watches the energy. u = u0 + weight (x - x^2 / 2) / EA.
-TEST(DoorFEBody, an_inhomogeneity_is_a_constant_displacement)
+TEST(LibraryFEBody, an_inhomogeneity_is_a_constant_displacement)
 {
   for (const double given : {.02, -3.5})
   {
@@ -212,7 +212,7 @@ namespace
 
 // Prescribed edges take hanging nodes with them: the displacement a + b y + c x is exact. Closed
 // constraints have forgotten the edges, and are refused.
-TEST(DoorFEBody, hanging_nodes_follow_prescribed_edges)
+TEST(LibraryFEBody, hanging_nodes_follow_prescribed_edges)
 {
   const auto exact = [](const Point<2> &p) { return .3 + .7 * p[1] - .2 * p[0]; };
   for (const unsigned int degree : {1, 2})
