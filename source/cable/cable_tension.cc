@@ -13,7 +13,7 @@ namespace taut
   namespace
   {
     /// Strain of the differences that make the linear tension, whose relative error is its square.
-    constexpr double small_strain = 1e-4;
+    constexpr double least_strain = 1e-4;
 
     /// Angle [rad] between the middle of the last element and a free end above which the end is a
     /// kink. Tension of the end over the tension of the middle below which the end has no tension.
@@ -40,7 +40,7 @@ namespace taut
       largest = std::max(largest, std::fabs(q[i] - from[i]));
     if (!is_linear() || largest == 0.)
       return [&](const double s) { return element.tension(q, s); };
-    const double part = small_strain * std::min(1., element.shortest_element()) / largest;
+    const double part = least_strain * std::min(1., element.shortest_element()) / largest;
     std::vector<double> before = tangent_at, after = tangent_at;
     for (std::size_t i = 0; i < q.size(); ++i)
     {

@@ -2,8 +2,8 @@
 #include "output/total_displacement.h"
 
 #include "base/dot.h"
+#include "output/energy.h"
 #include <taut/base/archive.h>
-#include <taut/output/energy.h>
 
 #include <cmath>
 

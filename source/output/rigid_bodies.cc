@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/rigid_bodies.h"
 #include <taut/base/archive.h>
 #include <taut/mechanism/rigid_body.h>
-#include <taut/output/rigid_bodies.h>
 
 namespace taut
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "output/step_accuracy.h"
 #include "base/text.h"
+#include "time/longest_step.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 

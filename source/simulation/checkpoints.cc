@@ -7,6 +7,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
+#include <taut/simulation/checkpoints.h>
 #include <taut/simulation/observed_run.h>
 
 #include <cmath>

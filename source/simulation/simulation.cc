@@ -22,6 +22,7 @@
 #include <taut/output/impact_watch.h>
 #include <taut/output/series.h>
 #include <taut/output/slack_monitor.h>
+#include <taut/simulation/checkpoints.h>
 #include <taut/simulation/simulation.h>
 
 #include <algorithm>

@@ -49,7 +49,7 @@ namespace taut
     {
       Row &row = rows[i];
       row.multiplier = start.multiplier[i];
-      row.gap = start.gap[i] - constraints.distance_beyond(i, start.time);
+      row.gap = start.complementarity_gap[i] - constraints.distance_beyond(i, start.time);
       row.u = start.springs[i].u;
       row.noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
       row.begin = start.time;

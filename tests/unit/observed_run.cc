@@ -5,7 +5,7 @@
 #include "common.h"
 #include "fuzz/library_bodies.h"
 
-#include <taut/output/energy.h>
+#include "output/energy.h"
 #include <taut/output/fields.h>
 #include <taut/output/series.h>
 #include <taut/output/statistics.h>
@@ -90,7 +90,8 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
   EXPECT_EQ(whole.impulse, parts.impulse);
   // The impact takes the momentum, and the mass lies until the end.
   const double fall = std::sqrt(2. * height / library::gravity);
-  const double exact = 2. * library::gravity * fall + 2. * library::gravity * (whole.state.time - fall);
+  const double exact =
+      2. * library::gravity * fall + 2. * library::gravity * (whole.state.time - fall);
   EXPECT_NEAR(whole.impulse, exact, 1e-2 * exact);
   EXPECT_EQ(whole.uplift, 0.);
   const auto files = files_in(folder + "/whole"), others = files_in(folder + "/parts");

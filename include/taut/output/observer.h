@@ -24,6 +24,15 @@ namespace dealii
 
 namespace taut
 {
+  /// A result that is one number: of a sliding contact, another link, a probe, or what an observer
+  /// measures.
+  struct NamedQuantity
+  {
+    std::string item, quantity;
+    double value;
+    std::string unit;
+  };
+
   /// Data of an accepted step for observers.
   struct StepView
   {
@@ -116,15 +125,6 @@ namespace taut
     /// Called after finish(): writes the final report to the log. It must not communicate if the
     /// run @p failed, as other ranks may not know.
     virtual void report(std::ostream & /*log*/, bool /*failed*/) const {}
-  };
-
-  /// A result that is one number: of a sliding contact, another link, a probe, or what an observer
-  /// measures.
-  struct NamedQuantity
-  {
-    std::string item, quantity;
-    double value;
-    std::string unit;
   };
 } // namespace taut
 

@@ -5,7 +5,7 @@
 #include <taut/solid/solid_conditions.h>
 #include <taut/solid/solid_mesh.h>
 #include <taut/substructure/fe_body.h>
-#include <taut/substructure/strained_body.h>
+#include <taut/substructure/body_traits.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>

@@ -13,10 +13,10 @@ namespace taut
   /// Displacements, contact forces and gaps at rest.
   struct StaticState
   {
-    BodyVectors displacement;       ///< U [m, rad]
-    std::vector<double> multiplier; ///< N [N, N m]
-    std::vector<double> gap;        ///< D [m, rad]
-    std::vector<double> distance;   ///< D - S N [m, rad]
+    BodyVectors displacement;                ///< U [m, rad]
+    std::vector<double> multiplier;          ///< N [N, N m]
+    std::vector<double> complementarity_gap; ///< D [m, rad]
+    std::vector<double> distance;            ///< D - S N [m, rad]
     Residuals residuals;
     std::vector<std::size_t> repeated_joints = {}; ///< see RepeatedRows
   };
