@@ -82,7 +82,7 @@ namespace taut
         out << "<text x=\"8\" y=\"14\">black: wires and bodies, blue: supports and ground, green: "
                "masses, red: links (hollow: unilateral); heights x "
             << std::setprecision(2) << sy / sx << "</text>\n</svg>\n";
-        return out.str();
+        return whole_text(out);
       }
 
     private:
@@ -266,8 +266,6 @@ namespace taut
       sketch.dot(mass.position, 5., "fill=\"#393\"");
       sketch.label(mass.position, mass.name);
     }
-    const std::string text = sketch.end();
-    check_memory();
-    write_file(path, text);
+    write_file(path, sketch.end());
   }
 } // namespace taut

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/memory.h"
 #include "base/write_file.h"
 #include <taut/output/table_file.h>
 #include <taut/output/vtu_file.h>
@@ -82,7 +83,7 @@ namespace taut
         text << static_cast<int>(c) << ' ';
       text << "0\n";
     }
-    arrays.push_back({section(location), name, "String", 1, text.str()});
+    arrays.push_back({section(location), name, "String", 1, whole_text(text)});
   }
 
   void VtuFile::set(const std::size_t array, const std::vector<float> &values)

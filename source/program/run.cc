@@ -21,8 +21,6 @@
 
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -44,8 +42,7 @@ namespace
     parameters.set_defaults();
     std::ostringstream text;
     parameters.print(text);
-    taut::check_memory();
-    taut::write_file(default_file, text.str());
+    taut::write_file(default_file, taut::whole_text(text));
     std::cout << "Wrote '" << default_file
               << "' with all entries and their defaults: a railway line with a pantograph.\n"
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
@@ -169,39 +166,14 @@ namespace
                          : run_once)(line, processes);
     else if (processes.is_root())
       write_default_file();
-    taut::check_memory();
   }
 
-  bool memory_is_told = false; ///< that it was short
-  std::terminate_handler usual_end = nullptr;
-
-  /// The destructors of some libraries need memory, and end the program when they find none.
-  void end_without_memory()
-  {
-    if (taut::memory_was_short() && !memory_is_told)
-    {
-      std::cout.flush();
-      std::cerr << "taut: " << taut::too_large << '\n';
-      memory_is_told = true;
-    }
-    if (!memory_is_told)
-      usual_end();
-    std::fflush(stdout);
-    std::_Exit(1);
-  }
-
-  /// Says once what went wrong, without memory of its own. Returns the exit code.
+  /// Says once what went wrong. Returns the exit code.
   int report(taut::RankAbort &rank_abort, const char *message, const int code = 1,
              const char *before = "")
   {
     taut::ignore_interruptions();
     std::cout.flush();
-    if (taut::memory_was_short())
-    {
-      message = taut::too_large;
-      before = "";
-      memory_is_told = true;
-    }
     if (rank_abort.are_own())
       std::cerr << "taut: " << before << message << '\n';
     rank_abort.end_others(code);
@@ -211,8 +183,6 @@ namespace
 
 int taut::run(const CommandLine &line)
 {
-  taut::watch_memory();
-  usual_end = std::set_terminate(end_without_memory);
   taut::Communicator processes;
   if (taut::started_in_parallel())
   {
@@ -242,8 +212,7 @@ int taut::run(const CommandLine &line)
   }
   catch (const std::exception &e)
   {
-    memory_is_told = taut::is_memory_shortage(e);
-    if (memory_is_told)
+    if (taut::is_memory_shortage(e))
       return report(rank_abort, taut::too_large);
     return report(rank_abort, e.what(), 1, "internal error: ");
   }

@@ -3,7 +3,6 @@
 
 #include "base/data_files.h"
 #include "base/instruction_set.h"
-#include "base/memory.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
@@ -57,7 +56,6 @@ namespace taut
     processes.agree(
         [&]
         {
-          check_memory();
           if (!processes.is_root())
             return;
           if (const auto last = read_checkpoint(folder, log))
@@ -134,7 +132,6 @@ namespace taut
     processes.agree(
         [&]
         {
-          check_memory();
           if (processes.is_root())
             write_checkpoint(stored, folder);
         });

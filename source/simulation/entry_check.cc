@@ -2,8 +2,6 @@
 #include "simulation/entry_check.h"
 #include "simulation/file_text.h"
 
-#include "base/memory.h"
-#include "base/memory_guard.h"
 #include "base/nearest_name.h"
 #include <taut/base/exceptions.h>
 
@@ -18,6 +16,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <new>
 #include <sstream>
 
 namespace taut
@@ -267,10 +266,9 @@ namespace taut
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
             suggestion(name, names_in(node, false)) + sections_here(name, node) +
             elsewhere(listing, name, false));
-      // A description that a shortage of memory cut off, before or here, gives a null pointer.
-      check_memory();
-      const MemoryGuard guard;
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
+      if (!pattern) // a stream that found no memory cut the description off
+        throw std::bad_alloc();
       if (!pattern->match(entry.value))
       {
         const std::string near = nearest_name(

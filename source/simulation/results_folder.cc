@@ -147,9 +147,8 @@ namespace taut
     for (const std::string &comment : comments)
       used << "# " << comment << '\n';
     parameters.print(used);
-    check_memory();
     copy_data_files(data_files(), folder.string());
-    replace_file(used_file, used.str());
+    replace_file(used_file, whole_text(used));
   }
 
   void check_results_folder(const Parameters &parameters, const Communicator &processes)

@@ -4,7 +4,6 @@
 
 #include "base/data_files.h"
 #include "base/interruption.h"
-#include "base/memory.h"
 #include "base/text.h"
 #include "model/check_joints.h"
 #include "model/contact_mass.h"
@@ -116,7 +115,6 @@ namespace taut
         [&]
         {
           finish(observed->signal() != 0);
-          check_memory();
         });
     observed->report(log);
     log << "Results in " << output.folder << '\n';
@@ -200,7 +198,6 @@ namespace taut
     processes.agree(
         [&]
         {
-          check_memory();
           if (!processes.is_root() || resumes || !parameters.output.writes)
             return;
           std::vector<std::string> comments;

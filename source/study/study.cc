@@ -280,7 +280,6 @@ namespace taut
     {
       if (!is_memory_shortage(e))
         throw;
-      memory_was_short();
       setting.message = "more memory than there is";
     }
     if (!first)

@@ -304,8 +304,6 @@ namespace taut
         throw;
       message = too_large;
     }
-    if (memory_was_short())
-      message = too_large;
     std::replace(message.begin(), message.end(), '\n', ' ');
     return text + std::string(names.size() + 2, ',') + "," + csv_cell(message);
   }

@@ -419,8 +419,7 @@ namespace taut
     data.set_flags(flags);
     std::ostringstream file;
     data.write_vtu(file);
-    check_memory();
-    write_file(path, file.str());
+    write_file(path, whole_text(file));
   }
 
   template class FEBody<1>;

@@ -44,7 +44,6 @@ namespace taut
         patches, names,
         {{0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}},
         flags, file);
-    check_memory();
-    write_file(path, file.str());
+    write_file(path, whole_text(file));
   }
 } // namespace taut

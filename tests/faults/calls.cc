@@ -16,18 +16,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <stdexcept>
 #include <string>
-
-extern "C"
-{
-  // The allocator of glibc under the names that nobody replaces.
-  void *__libc_malloc(std::size_t);
-  void *__libc_calloc(std::size_t, std::size_t);
-  void *__libc_realloc(void *, std::size_t);
-  void *__libc_memalign(std::size_t, std::size_t);
-}
 
 namespace
 {
@@ -113,31 +103,6 @@ namespace
                : lseek(file, 0, SEEK_CUR);
   }
 
-  bool c_memory_fails()
-  {
-    if (!is_due(Counted::c_memory))
-      return false;
-    ++numbers->failed;
-    errno = ENOMEM;
-    return true;
-  }
-
-  void *allocate(const std::size_t size, const std::size_t alignment)
-  {
-    void *memory = nullptr;
-    while (is_due(Counted::memory) ||
-           (memory = alignment == 0 ? __libc_malloc(size == 0 ? 1 : size)
-                                    : __libc_memalign(alignment, size)) == nullptr)
-    {
-      ++numbers->failed;
-      const std::new_handler handler = std::get_new_handler();
-      if (handler == nullptr)
-        throw std::bad_alloc();
-      handler();
-    }
-    return memory;
-  }
-
   /// Before a collective call; at the last one, MPI_Finalize, the number of them is told.
   void meet(const bool is_last = false)
   {
@@ -159,36 +124,6 @@ namespace
     }
   }
 } // namespace
-
-void *operator new(const std::size_t size)
-{
-  return allocate(size, 0);
-}
-
-void *operator new(const std::size_t size, const std::align_val_t alignment)
-{
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-
-void operator delete(void *memory) noexcept
-{
-  std::free(memory);
-}
-
-void operator delete(void *memory, std::size_t) noexcept
-{
-  std::free(memory);
-}
-
-void operator delete(void *memory, std::align_val_t) noexcept
-{
-  std::free(memory);
-}
-
-void operator delete(void *memory, std::size_t, std::align_val_t) noexcept
-{
-  std::free(memory);
-}
 
 extern "C"
 {
@@ -216,32 +151,6 @@ extern "C"
   {
     meet(true);
     return PMPI_Finalize();
-  }
-
-  void *malloc(const std::size_t size)
-  {
-    return c_memory_fails() ? nullptr : __libc_malloc(size);
-  }
-
-  void *calloc(const std::size_t n, const std::size_t size)
-  {
-    return c_memory_fails() ? nullptr : __libc_calloc(n, size);
-  }
-
-  void *realloc(void *memory, const std::size_t size)
-  {
-    return c_memory_fails() ? nullptr : __libc_realloc(memory, size);
-  }
-
-  int posix_memalign(void **memory, const std::size_t alignment, const std::size_t size)
-  {
-    *memory = c_memory_fails() ? nullptr : __libc_memalign(alignment, size);
-    return *memory == nullptr ? ENOMEM : 0;
-  }
-
-  void *aligned_alloc(const std::size_t alignment, const std::size_t size)
-  {
-    return c_memory_fails() ? nullptr : __libc_memalign(alignment, size);
   }
 
   int open(const char *path, int flags, ...)

@@ -13,8 +13,6 @@ namespace faults
   {
     nothing,
     files,
-    memory,
-    c_memory,
     collectives
   };
   struct Fault

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A library for LD_PRELOAD that runs a program again and again, each time with one fault: it takes
 // the place of main(), and for each line "<fault> <n> <folder>" of the standard input forks a
-// process that runs the program in that folder until its n-th allocation or its n-th operation on a
-// file of that folder fails. Counting begins with the program's own main(), after all libraries
-// have been initialised. Outputs go to <folder>.out and <folder>.err, the
-// operations on files to <folder>.log; the answer to a line is "<status of waitpid> <calls that
-// were counted> <calls that failed>".
+// process that runs the program in that folder until its n-th operation on a file of that folder
+// fails. Counting begins with the program's own main(), after all libraries have been initialised.
+// Outputs go to <folder>.out and <folder>.err, the operations on files to <folder>.log; the answer
+// to a line is "<status of waitpid> <calls that were counted> <calls that failed>".
 //
 // Faults, of files: EIO and ENOSPC (that call alone fails), short (half of the bytes are written,
 // the call after it has ENOSPC), full (the disk is full from then on: files shrink and change, but
-// do not grow). Of memory: new (that operator new alone), all_new (it and all later ones), malloc
-// (that call of malloc, calloc, realloc, posix_memalign or aligned_alloc alone). Counted only:
-// files, memory, c_memory. No faults, but another rounding: up, down, to_zero, to_nearest.
+// do not grow). Counted only: files. No faults, but another rounding: up, down, to_zero,
+// to_nearest.
 //
 // A program that mpirun starts is run as it is. The variable TAUT_FAULT, "<fault> <n> <rank>",
-// gives one rank its fault: one of memory, or an exception in its n-th collective call of MPI,
+// gives one rank its fault: an exception in its n-th collective call of MPI,
 // throw for one that the program knows nothing of and throw_user for a taut::UserError. That rank
 // appends the number of its calls in a run without a fault to the file TAUT_FAULT_COUNT.
 #include "fault.h"
@@ -64,11 +62,6 @@ namespace
                                   {"ENOSPC", Counted::files, ENOSPC, false, false},
                                   {"short", Counted::files, ENOSPC, true, false},
                                   {"full", Counted::files, ENOSPC, false, true},
-                                  {"memory", Counted::memory, 0, false, false},
-                                  {"new", Counted::memory, ENOMEM, false, false},
-                                  {"all_new", Counted::memory, ENOMEM, false, true},
-                                  {"c_memory", Counted::c_memory, 0, false, false},
-                                  {"malloc", Counted::c_memory, ENOMEM, false, false},
                                   {"collectives", Counted::collectives, 0, false, false},
                                   {"throw", Counted::collectives, EIO, false, false},
                                   {"throw_user", Counted::collectives, EINVAL, false, false},

@@ -15,6 +15,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <new>
 #include <sstream>
 #include <string>
 
@@ -29,6 +30,8 @@ namespace taut
       OutputArchive archive(out);
       write(archive);
     }
+    if (!out) // a stream swallows it
+      throw std::bad_alloc();
     return out.str();
   }
 
