@@ -83,7 +83,7 @@ namespace taut
       const Substructure &body = structure[k];
       norms.push_back({RowSumNorm(body, body.mass()), RowSumNorm(body, body.damping()),
                        RowSumNorm(body, body.stiffness())});
-      reference_force.push_back(largest(body, reference.force[k]));
+      reference_force.push_back(max_norms(body, reference.force[k]));
       mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
       inertia.resize(std::max(inertia.size(), tile_size(body)));
     }
@@ -143,7 +143,7 @@ namespace taut
       mass_A = mean_A.data();
     double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data();
     auto constraint = body.constraints().begin();
-    Largest<4> largest(body);
+    Sizes found;
     std::size_t done = 0;
     const auto measure_tile =
         [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
@@ -171,13 +171,13 @@ namespace taut
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
         residual[constraint->dof - begin] = 0.;
 
-      largest.add({residual, state.dU[k].data() + begin, state.V[k].data() + begin,
-                   state.U[k].data() + begin},
-                  size);
+      raise_norms(found.residual, body, residual, size);
+      raise_norms(found.increment, body, state.dU[k].data() + begin, size);
+      raise_norms(found.velocity, body, state.V[k].data() + begin, size);
+      raise_norms(found.displacement, body, state.U[k].data() + begin, size);
     };
     visit_tiles(body, measure_tile);
-    const std::array<ByKind, 4> found = largest.result();
-    return {found[0], found[1], found[2], found[3]};
+    return found;
   }
 
   double BalanceResidual::relative_residual(const std::size_t k, const StepForces &forces,

@@ -80,7 +80,7 @@ namespace taut
     const double *f = reference.force[k].data();
     for (std::size_t i = 0; i < P.size(); ++i)
       P[i] -= f[i];
-    step_forces.external_size[k] = largest(body, P);
+    step_forces.external_size[k] = max_norms(body, P);
   }
 
   void BodyStep::set_loads(const StepEquations &equations, State &state)

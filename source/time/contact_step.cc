@@ -474,7 +474,7 @@ namespace taut
   {
     std::vector<ByKind> size;
     for (std::size_t k = 0; k < structure.size(); ++k)
-      size.push_back(taut::largest(structure[k], U[k]));
+      size.push_back(max_norms(structure[k], U[k]));
     std::vector<double> terms(constraints.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       for (const auto &[k, form, of] : constraints[i].terms)

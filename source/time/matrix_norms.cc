@@ -17,122 +17,41 @@ namespace taut
     {
       largest = a > largest || std::isnan(a) ? a : largest;
     }
-
-    /// Joins the halves of @p n lanes.
-    template <std::size_t n, typename Lanes>
-    void fold(Lanes &largest, Lanes &sums)
-    {
-      for (std::size_t k = 0; k < n / 2; ++k)
-      {
-        largest[k] = std::max(largest[k], largest[k + n / 2]);
-        sums[k] += sums[k + n / 2];
-      }
-    }
   } // namespace
 
-  template <std::size_t n_vectors>
-  Largest<n_vectors>::Largest(const Substructure &body)
-      : body(body), period(body.kind_pattern().size()),
-        lanes(8 % period == 0            ? 8
-              : most_lanes % period == 0 ? most_lanes
-                                         : 0)
+  void raise_norms(ByKind &norms, const Substructure &body, const double *const x,
+                   const std::size_t n)
   {
-    for (std::size_t v = 0; v < n_vectors; ++v)
-      for (Lanes *const all : {&largest, &sums})
-        std::fill_n((*all)[v].begin(), lanes, 0.);
-  }
-
-  /// Adds rows of whole lanes.
-  template <std::size_t n_vectors>
-  template <std::size_t lanes>
-  void Largest<n_vectors>::add_rows(const std::array<const double *, n_vectors> &x,
-                                    const std::size_t n)
-  {
+    // Some periods of kinds at once: their lanes compare in parallel. A comparison loses
+    // not-a-number, a sum keeps it.
+    constexpr std::size_t most_lanes = 24, vector_length = 8;
+    const std::size_t period = body.kind_pattern().size(),
+                      lanes = period * ((vector_length + period - 1) / period),
+                      n_full = lanes > most_lanes ? 0 : n - n % lanes;
+    std::array<double, most_lanes> largest = {}, sums = {};
     vectorised(
-        [this, x, n]
+        [&, x, n_full, lanes]
         {
-          std::array<std::array<double, lanes>, n_vectors> m, s;
-          for (std::size_t v = 0; v < n_vectors; ++v)
-          {
-            std::copy_n(largest[v].begin(), lanes, m[v].begin());
-            std::copy_n(sums[v].begin(), lanes, s[v].begin());
-          }
-          for (std::size_t i = 0; i < n; i += lanes)
-            for (std::size_t v = 0; v < n_vectors; ++v)
+          for (std::size_t i = 0; i < n_full; i += lanes)
 #pragma omp simd
-              for (std::size_t k = 0; k < lanes; ++k)
-              {
-                const double a = std::fabs(x[v][i + k]);
-                m[v][k] = a > m[v][k] ? a : m[v][k];
-                s[v][k] += a;
-              }
-          for (std::size_t v = 0; v < n_vectors; ++v)
-          {
-            std::copy(m[v].begin(), m[v].end(), largest[v].begin());
-            std::copy(s[v].begin(), s[v].end(), sums[v].begin());
-          }
+            for (std::size_t k = 0; k < lanes; ++k)
+            {
+              const double a = std::fabs(x[i + k]);
+              largest[k] = a > largest[k] ? a : largest[k];
+              sums[k] += a;
+            }
         });
+    for (std::size_t k = 0; n_full > 0 && k < lanes; ++k)
+      raise(norms[body.kind(k)], std::isnan(sums[k]) ? sums[k] : largest[k]);
+    for (std::size_t i = n_full; i < n; ++i)
+      raise(norms[body.kind(i)], std::fabs(x[i]));
   }
 
-  template <std::size_t n_vectors>
-  void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
+  ByKind max_norms(const Substructure &body, const std::vector<double> &x)
   {
-    // A rest of many rows is padded with zeros to whole lanes.
-    const std::size_t rest = lanes == 0 ? n : n % lanes, n_full = n - rest;
-    const bool is_padded = lanes > 0 && rest >= lanes / 2;
-    const auto add_full =
-        [&](const std::array<const double *, n_vectors> &rows, const std::size_t size)
-    {
-      if (lanes == most_lanes)
-        add_rows<most_lanes>(rows, size);
-      else
-        add_rows<8>(rows, size);
-    };
-    if (n_full > 0)
-      add_full(x, n_full);
-    if (is_padded)
-    {
-      Lanes padded;
-      std::array<const double *, n_vectors> rows;
-      for (std::size_t v = 0; v < n_vectors; ++v)
-      {
-        double *const end = std::copy(x[v] + n_full, x[v] + n, padded[v].data());
-        std::fill(end, padded[v].data() + lanes, 0.);
-        rows[v] = padded[v].data();
-      }
-      add_full(rows, lanes);
-    }
-    else
-      for (std::size_t v = 0; v < n_vectors; ++v)
-        for (std::size_t i = n_full; i < n; ++i)
-          raise(others[v][body.kind(i)], std::fabs(x[v][i]));
-  }
-
-  template <std::size_t n_vectors>
-  std::array<ByKind, n_vectors> Largest<n_vectors>::result()
-  {
-    std::size_t n = lanes;
-    if (lanes == 8 && period <= 2)
-      for (std::size_t v = 0; v < n_vectors; ++v)
-      {
-        fold<8>(largest[v], sums[v]);
-        fold<4>(largest[v], sums[v]);
-        n = 2;
-      }
-    for (std::size_t v = 0; v < n_vectors; ++v)
-      for (std::size_t k = 0; k < n; ++k)
-        raise(others[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
-    return others;
-  }
-
-  template class Largest<1>;
-  template class Largest<4>;
-
-  ByKind largest(const Substructure &body, const std::vector<double> &x)
-  {
-    Largest<1> found(body);
-    found.add({x.data()}, body.n_dofs());
-    return found.result()[0];
+    ByKind norms = {0., 0.};
+    raise_norms(norms, body, x.data(), body.n_dofs());
+    return norms;
   }
 
   void check_size(const Substructure &body, const ByKind &force, const ByKind &displacement,

@@ -13,37 +13,12 @@ namespace taut
   /// One number for displacements, one for slopes and rotations: their units differ.
   using ByKind = std::array<double, 2>;
 
-  /// Largest absolute entries of several vectors of one substructure, read together in pieces;
-  /// not-a-number if an entry is.
-  template <std::size_t n_vectors>
-  class Largest
-  {
-  public:
-    explicit Largest(const Substructure &body);
+  /// Raises norms to the largest absolute entries of @p n rows of a vector of a substructure, which
+  /// begin with a whole node; not-a-number if an entry is.
+  void raise_norms(ByKind &norms, const Substructure &body, const double *x, std::size_t n);
 
-    /// Adds the next @p n entries of each vector; all pieces but the last consist of whole nodes.
-    void add(const std::array<const double *, n_vectors> &x, std::size_t n);
-
-    /// To be called once, after the last piece.
-    std::array<ByKind, n_vectors> result();
-
-  private:
-    // Independent lanes compare in parallel. A comparison loses not-a-number, a sum keeps it.
-    static constexpr std::size_t most_lanes = 24;
-    using Lanes = std::array<std::array<double, most_lanes>, n_vectors>;
-
-    template <std::size_t lanes>
-    void add_rows(const std::array<const double *, n_vectors> &x, std::size_t n);
-
-    const Substructure &body;
-    const std::size_t period, lanes; ///< of kinds; a multiple of it, or 0: no lanes
-    Lanes largest, sums;
-    std::array<ByKind, n_vectors> others = {};
-  };
-
-  /// Largest absolute entries of a vector of a substructure; not-a-number if an entry is. Entries
-  /// of @p x beyond its DoFs are ignored.
-  ByKind largest(const Substructure &body, const std::vector<double> &x);
+  /// Of a whole vector. Entries of @p x beyond the DoFs of the body are ignored.
+  ByKind max_norms(const Substructure &body, const std::vector<double> &x);
 
   /// The largest entry on the diagonal; 0 if none is positive.
   double largest_on_diagonal(const SymmetricMatrix &matrix);

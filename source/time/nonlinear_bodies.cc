@@ -110,21 +110,23 @@ namespace taut
 
     for (std::vector<double> &rows : tile)
       rows.resize(tile_size(body));
-    Largest<4> found(body);
+    ByKind change = {0., 0.}, size = change, unbalanced = change, force = change;
     visit_tiles(body,
                 [&](const std::size_t begin, const std::size_t end, std::size_t)
                 {
-                  double *const difference = tile[0].data(), *const unbalanced = tile[1].data(),
+                  double *const difference = tile[0].data(), *const residual = tile[1].data(),
                                 *const whole = tile[2].data();
                   for (std::size_t i = begin; i < end; ++i)
                   {
                     difference[i - begin] = last_dU[i] - dU[i];
-                    unbalanced[i - begin] = last_remainder[i] - own.remainder[i];
+                    residual[i - begin] = last_remainder[i] - own.remainder[i];
                     whole[i - begin] = own.f[i] + reference.force[k][i];
                   }
-                  found.add({difference, dU.data() + begin, unbalanced, whole}, end - begin);
+                  raise_norms(change, body, difference, end - begin);
+                  raise_norms(size, body, dU.data() + begin, end - begin);
+                  raise_norms(unbalanced, body, residual, end - begin);
+                  raise_norms(force, body, whole, end - begin);
                 });
-    const auto [change, size, unbalanced, force] = found.result();
     const ByKind lack = significant_part(body, unbalanced);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)

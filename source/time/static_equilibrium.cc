@@ -236,7 +236,7 @@ namespace taut
           const ByKind own = largest(structure[k], difference);
           motion_of_body[structure.number(k)] = own[0];
           add_largest(own, moved);
-          add_largest(largest(structure[k], to[k]), size);
+          add_largest(max_norms(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
           add_largest(significant_part(structure[k], largest(structure[k], product)), lack);
         }
@@ -246,7 +246,7 @@ namespace taut
               for (std::size_t k = 0; k < structure.size(); ++k)
               {
                 soft[k].internal_force(to[k], {}, product);
-                add_largest(largest(structure[k], product), force);
+                add_largest(max_norms(structure[k], product), force);
               }
             });
         double result = 0.;
