@@ -95,7 +95,7 @@ namespace taut
         for (std::size_t j = first; j < end; ++j)
           motion = std::max(motion, std::fabs(dU[dofs[j].dof]));
       else
-        motion = largest(structure[k], dU)[0];
+        motion = max_norms(structure[k], dU)[0];
       double &fastest = speed[dofs[first].group];
       fastest = std::max(fastest, motion / state.last_step);
     }

@@ -54,7 +54,7 @@ namespace taut
     if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
       for (const unsigned int dof : structure[k].dofs_without_mass())
         x[dof] = 0.;
-    return largest(structure[k], x);
+    return max_norms(structure[k], x);
   }
 
   double LocalError::measure(const State &state, const StepMethod &method, const double step_before,

@@ -3,7 +3,8 @@
 #define taut_mass_equations_h
 
 #include "interface/schur_complement.h"
-#include "time/projection_compliance.h"
+#include "time/contact_resolution.h"
+#include <taut/time/integrator.h>
 #include <taut/time/state.h>
 #include <taut/time/step_parameters.h>
 
@@ -12,8 +13,13 @@
 
 namespace taut
 {
-  /// The factored mass matrices M of the bodies, and f = B^T M^-1 B of the constraints: the change
-  /// of velocities by impulses. All functions are called by all ranks together.
+  /**
+   * The change of velocities by impulses: the factored mass matrices M of the bodies, and
+   * f = B^T M^-1 B of the constraints with the compliance f_ii (S / (alpha F_ii))^2 of elastic
+   * unilateral constraints on its diagonal. It fades such a constraint out from rigid to absent as
+   * the compliance S of the spring grows over the flexibility F_ii of the bodies in a step.
+   * Conserving springs take no part. All functions but access are called by all ranks together.
+   */
   class MassEquations
   {
   public:
@@ -21,31 +27,66 @@ namespace taut
     MassEquations(const Structure &structure, const Constraints &constraints,
                   const SolverParameters &parameters, const Reference &reference);
 
-    bool is_set_up() const { return set_up; }
+    /// For steps with these coefficients. @p S are the compliances of the springs in a step, which
+    /// @p F has on its diagonal. @p is_linear: F is the same whenever these coefficients return.
+    void prepare(const StepCoefficients &c, const std::vector<double> &S,
+                 ComplementarityOperator &F, bool is_linear);
 
-    /// Sets f up with @p softening on its diagonal. The first call factors the mass matrices.
-    void setup(ProjectionCompliance &softening);
+    /// Before a projection: springs with laws and sliding constraints.
+    void follow(const std::vector<double> &S, ComplementarityOperator &F);
 
     /// Updates f for a state: the mass of a body with internal constraints depends on the state,
-    /// and sliding constraints are in their places.
-    void update(const State &state, ProjectionCompliance &softening);
+    /// and sliding constraints are in their places. The first call factors the mass matrices.
+    void update(const State &state);
 
     /// Replaces impulses P by M^-1 P.
     void solve(BodyVectors &P) const { solvers.solve(P); }
 
-    SchurComplement &interface() { return *schur; }
+    /// f with the compliances.
+    const ComplementarityOperator &f() const { return schur->matrix(); }
+
+    /// False for a constraint that is conserving or too soft.
+    bool takes_part(std::size_t i) const;
+
+    /// Compliance of a constraint in f [1/kg, 1/(kg m^2)]; 0 for a rigid one.
+    double compliance(const std::size_t i) const { return compliances[i]; }
 
   private:
+    void set_up();
     void factor_at(const State &state);
+    void find_flexibilities(const std::vector<std::size_t> &rows, const std::vector<double> &S,
+                            ComplementarityOperator &F);
+    void find_mass_flexibilities(const std::vector<std::size_t> &rows);
+    void set_relative(const std::vector<double> &S);
+    void set_compliances();
+    void update_moving();
 
     const Structure &structure;
+    const Constraints &constraints;
     const Reference &reference;
     FactoredStructure solvers;
     std::vector<std::size_t> with_constraints; ///< bodies of this rank that are a ConstrainedBody
     std::vector<double> displacement;          ///< in factor_at()
     bool some_with_constraints;                ///< on any rank
     std::unique_ptr<SchurComplement> schur;
-    bool set_up = false;
+    bool is_set_up = false;
+
+    WholeBodies bodies;
+    double theta = 1.; ///< weight of forces in the balance
+
+    /// F_ii of constraints that do not slide, for coefficients of an earlier call.
+    struct Known
+    {
+      StepCoefficients c;
+      std::vector<double> flexibility;
+    };
+    std::vector<Known> known;
+    std::vector<std::size_t> elastic, moving_elastic; ///< unilateral constraints
+    std::vector<std::size_t> softened;                ///< in set_up()
+    bool has_laws = false;
+    std::vector<double> flexibility, of_mass; ///< F_ii and f_ii of elastic constraints
+    std::vector<double> relative;             ///< (S / (alpha F_ii))^2 of each constraint
+    std::vector<double> compliances;          ///< f_ii times relative
   };
 } // namespace taut
 

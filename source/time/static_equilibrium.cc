@@ -233,12 +233,12 @@ namespace taut
           difference = to[k];
           for (std::size_t i = 0; i < difference.size(); ++i)
             difference[i] -= from[k][i];
-          const ByKind own = largest(structure[k], difference);
+          const ByKind own = max_norms(structure[k], difference);
           motion_of_body[structure.number(k)] = own[0];
           add_largest(own, moved);
           add_largest(max_norms(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
-          add_largest(significant_part(structure[k], largest(structure[k], product)), lack);
+          add_largest(significant_part(structure[k], max_norms(structure[k], product)), lack);
         }
         structure.communicator().agree(
             [&]

@@ -21,7 +21,7 @@ namespace taut
                                          const SolverParameters &parameters,
                                          const Reference &reference)
       : structure(structure), constraints(constraints),
-        masses(structure, constraints, parameters, reference), softening(constraints),
+        masses(structure, constraints, parameters, reference),
         complementarity(parameters.complementarity), dV(structure.zero())
   {
     const std::size_t n = constraints.size();
@@ -53,9 +53,7 @@ namespace taut
     is_linear = linear;
     c = coefficients;
     step = tau;
-    softening.prepare(c, S, F, is_linear);
-    if (masses.is_set_up())
-      masses.setup(softening);
+    masses.prepare(c, S, F, is_linear);
   }
 
   /// Sets which constraints take part and their impulses. False if all rates satisfy conditions.
@@ -68,7 +66,7 @@ namespace taut
       p[i] = contacts.is_mean(i) ? step * state.multiplier[i] : 0.;
       const bool is_spring = constraints[i].cone.is_free() && !constraints[i].spring.is_rigid();
       if (!contacts.is_mean(i) || has_no_mass[i] || is_spring ||
-          !constraints[i].cone.is_closed(p[i]) || !softening.takes_part(i))
+          !constraints[i].cone.is_closed(p[i]) || !masses.takes_part(i))
         continue;
       takes_part[i] = 1;
       if (contacts.remains_in_contact(i, state))
@@ -97,7 +95,7 @@ namespace taut
   /// Sets d = D'* - (f + softening) p for the constraints that take part.
   void VelocityProjection::set_problem(const State &state)
   {
-    const ComplementarityOperator &f = masses.interface().matrix();
+    const ComplementarityOperator &f = masses.f();
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!(f.diagonal(i) > 0.))
@@ -124,7 +122,7 @@ namespace taut
                                                            ComplementarityOperator &F)
   {
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    softening.follow(contacts.compliance(), F, masses.is_set_up() ? &masses.interface() : nullptr);
+    masses.follow(contacts.compliance(), F);
     if (some_quasi_static)
     {
       move_quasi_static(state);
@@ -132,7 +130,7 @@ namespace taut
     }
     if (!has_to_act(contacts, state))
       return {};
-    masses.update(state, softening);
+    masses.update(state);
     problem.gap_scale = contacts.velocity_sizes();
     set_problem(state);
     solve(contacts, state);
@@ -146,7 +144,7 @@ namespace taut
       complementarity.begin_search();
     const auto find = [&](std::vector<double> &impulses)
     {
-      impulses = complementarity.solve(problem, masses.interface().matrix()).solution.multiplier;
+      impulses = complementarity.solve(problem, masses.f()).solution.multiplier;
       for (std::size_t i = 0; i < impulses.size(); ++i)
         impulses[i] -= p[i];
     };
@@ -154,7 +152,7 @@ namespace taut
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (takes_part[i] && constraints[i].cone.may_open() && contacts.rates_before_step()[i] < 0. &&
-          c.restitution > 0. && softening[i] == 0.)
+          c.restitution > 0. && masses.compliance(i) == 0.)
       {
         problem.free_gap[i] += c.restitution * contacts.rates_before_step()[i];
         rebounds = true;
@@ -178,9 +176,9 @@ namespace taut
     const auto response = [&](const std::vector<double> &impulses)
     {
       std::vector<double> result;
-      masses.interface().matrix().apply(impulses, result);
+      masses.f().apply(impulses, result);
       for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] -= softening[i] * impulses[i];
+        result[i] -= masses.compliance(i) * impulses[i];
       return result;
     };
     const std::vector<double> of_plain = response(q), of_rebounding = response(rebounding);
@@ -245,14 +243,14 @@ namespace taut
     change_velocities(state);
     work_vector = contacts.velocities();
     contacts.update_rates(state);
-    masses.interface().matrix().apply(q, change);
+    masses.f().apply(q, change);
     Residual found;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       work_of_rows[i] = .5 * q[i] * (work_vector[i] + contacts.velocities()[i]);
       if (!takes_part[i])
         continue;
-      const double expected = rate[i] + change[i] - softening[i] * q[i],
+      const double expected = rate[i] + change[i] - masses.compliance(i) * q[i],
                    size = problem.gap_scale[i] + std::fabs(rate[i]) + std::fabs(expected),
                    error = std::fabs(state.rate[i] - expected),
                    relative = error == 0. ? 0. : error / size;

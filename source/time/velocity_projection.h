@@ -3,10 +3,8 @@
 #define taut_velocity_projection_h
 
 #include "complementarity/solver.h"
-#include "interface/schur_complement.h"
 #include "time/contact_step.h"
 #include "time/mass_equations.h"
-#include "time/projection_compliance.h"
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/state.h>
 #include <taut/time/step_parameters.h>
@@ -39,7 +37,7 @@ namespace taut
                        const SolverParameters &parameters, const Reference &reference);
 
     /// For steps with these coefficients. @p F is the matrix of their first part, including S, see
-    /// ProjectionCompliance::prepare().
+    /// MassEquations::prepare().
     void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
                  ComplementarityOperator &F, bool is_linear);
 
@@ -83,7 +81,6 @@ namespace taut
     const Structure &structure;
     const Constraints &constraints;
     MassEquations masses;
-    ProjectionCompliance softening;
     ComplementaritySolver complementarity;
     StepCoefficients c;
     double step = 0.;
