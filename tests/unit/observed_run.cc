@@ -9,6 +9,7 @@
 #include <taut/output/fields.h>
 #include <taut/output/series.h>
 #include <taut/output/statistics.h>
+#include <taut/simulation/checkpoints.h>
 #include <taut/simulation/observed_run.h>
 
 #include <unistd.h>
