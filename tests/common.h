@@ -8,23 +8,42 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
+#include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace verification
 {
+  namespace fs = std::filesystem;
+
+  constexpr double pi = 3.14159265358979323846,
+                   g = 9.81; ///< acceleration of gravity [m/s^2]
+
   /// The message of the error of the user that some work ends with; empty: none.
   inline std::string error_of(const std::function<void()> &work)
   {
@@ -51,6 +70,35 @@ namespace verification
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
+
+  /// A new folder for files of a test, which is removed again with all that it has.
+  class Folder
+  {
+  public:
+    Folder()
+    {
+      std::string pattern = (fs::temp_directory_path() / "taut_test_XXXXXX").string();
+      path = mkdtemp(pattern.data());
+    }
+    Folder(const Folder &) = delete;
+    ~Folder()
+    {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+
+    std::string operator/(const std::string &name) const { return (path / name).string(); }
+
+    /// Writes a file there; returns its path.
+    std::string write(const std::string &name, const std::string &text) const
+    {
+      fs::create_directories((path / name).parent_path());
+      std::ofstream(path / name, std::ios::binary) << text;
+      return (path / name).string();
+    }
+
+    fs::path path;
+  };
 
   inline std::vector<std::string> cells_of(const std::string &line)
   {

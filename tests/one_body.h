@@ -3,11 +3,10 @@
 #ifndef taut_tests_one_body_h
 #define taut_tests_one_body_h
 
+#include "common.h"
+
 #include <taut/interface/system.h>
 #include <taut/time/stepper.h>
-
-#include <memory>
-#include <string>
 
 namespace verification
 {

@@ -6,15 +6,8 @@
 // step allocates less.
 #include "counted_run.h"
 
-#include <taut/base/exceptions.h>
-
 #include <extremes/observation.h>
 #include <extremes/scene_matrix.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <iostream>
-#include <map>
 
 namespace
 {
@@ -63,23 +56,6 @@ namespace
     std::free(c);
   }
 
-  TEST(Allocations, sites_have_callers)
-  {
-    const CountedRun run = run_counted("bump_stop", {10, 20}, 24, {matrix_free});
-    ASSERT_EQ(run.by_step.size(), 20u);
-    ASSERT_FALSE(run.sites.empty());
-    long n = 0;
-    bool is_named = false;
-    for (const Site &site : run.sites)
-    {
-      n += site.count;
-      for (const std::string &caller : site.callers)
-        is_named = is_named || caller == "taut::Motion::try_step";
-    }
-    EXPECT_GE(n, run.total());
-    EXPECT_TRUE(is_named);
-  }
-
   TEST(Allocations, bounds_are_of_the_moving_scenes)
   {
     std::vector<std::string> names;
@@ -115,7 +91,7 @@ namespace
          {Setting{"matrix-free", {matrix_free}, 1180.},
           Setting{"tables", {"Output/Interval=0", "Output/Link interval=0"}, 5.8}})
     {
-      const CountedRun run = run_counted("en50318_2002_250", {}, 0, overrides);
+      const CountedRun run = run_counted("en50318_2002_250", {}, overrides);
       ASSERT_EQ(run.by_step.size(), 100u) << name;
       const double mean = static_cast<double>(run.total()) / 100.;
       EXPECT_LE(mean, bound) << name;

@@ -4,10 +4,7 @@
 #include "base/interruption.h"
 #include <taut/simulation/simulation.h>
 
-#include <algorithm>
 #include <csignal>
-#include <filesystem>
-#include <numeric>
 
 namespace allocations
 {
@@ -17,32 +14,23 @@ namespace allocations
     class Counter : public taut::Observer
     {
     public:
-      Counter(const Steps &steps, const std::size_t n_callers) : steps(steps), n_callers(n_callers)
-      {
-        by_step.reserve(steps.counted);
-      }
+      explicit Counter(const Steps &steps) : steps(steps) { by_step.reserve(steps.counted); }
 
       void record(const taut::StepView &) override
       {
         const long now = count();
         if (n_records > steps.warm_up && !is_complete())
           by_step.push_back(now - before);
-        if (n_records == steps.warm_up && n_callers > 0)
-          start_recording();
         ++n_records;
-        if (is_complete() && n_callers > 0 && sites.empty())
-          sites = stop_recording(n_callers);
         before = count();
       }
 
       bool is_complete() const { return static_cast<long>(by_step.size()) >= steps.counted; }
 
       std::vector<long> by_step;
-      std::vector<Site> sites;
 
     private:
       const Steps steps;
-      const std::size_t n_callers;
       long n_records = 0; ///< the first is that of the start
       long before = 0;
     };
@@ -79,7 +67,7 @@ namespace allocations
     return names;
   }
 
-  CountedRun run_counted(const std::string &scene, const Steps &steps, const std::size_t n_callers,
+  CountedRun run_counted(const std::string &scene, const Steps &steps,
                          const std::vector<std::string> &overrides)
   {
     using verification::operator+;
@@ -87,18 +75,17 @@ namespace allocations
         verification::scene_file(scene),
         verification::Overrides{"Output/Field interval=0", "Output/Checkpoint interval=0"} +
             overrides);
-    return run_counted(session, steps, n_callers);
+    return run_counted(session, steps);
   }
 
-  CountedRun run_counted(verification::Session &session, const Steps &steps,
-                         const std::size_t n_callers)
+  CountedRun run_counted(verification::Session &session, const Steps &steps)
   {
     const long n_steps = session.simulation().n_steps();
     Steps fitting = steps;
     fitting.warm_up = std::min(steps.warm_up, n_steps / 3);
     fitting.counted = std::min(steps.counted, n_steps - fitting.warm_up);
 
-    Counter counter(fitting, n_callers);
+    Counter counter(fitting);
     session.simulation().observe(counter);
     session.simulation().stop_if([&] { return counter.is_complete() ? SIGTERM : 0; });
     CountedRun result;
@@ -114,7 +101,6 @@ namespace allocations
       result.ending = error.what();
     }
     result.by_step = counter.by_step;
-    result.sites = counter.is_complete() ? counter.sites : stop_recording(n_callers);
     return result;
   }
 } // namespace allocations

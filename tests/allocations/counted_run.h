@@ -6,9 +6,6 @@
 
 #include <verification/run.h>
 
-#include <string>
-#include <vector>
-
 namespace allocations
 {
   /// Steps before those that are counted, and steps that are counted, at most.
@@ -23,8 +20,7 @@ namespace allocations
   struct CountedRun
   {
     std::vector<long> by_step;
-    std::vector<Site> sites; ///< if a number of callers is given
-    std::string ending;      ///< empty, or the error that ended the run
+    std::string ending; ///< empty, or the error that ended the run
 
     long total() const;
     long largest() const;
@@ -35,12 +31,10 @@ namespace allocations
   std::vector<std::string> moving_scenes();
 
   /// Runs a scene up to the last counted step. A short scene has a third of its steps as warm-up.
-  /// With @p n_callers the sites are told apart by so many functions.
-  CountedRun run_counted(verification::Session &session, const Steps &steps,
-                         std::size_t n_callers = 0);
+  CountedRun run_counted(verification::Session &session, const Steps &steps);
 
   /// The same of a scene of prm/.
-  CountedRun run_counted(const std::string &scene, const Steps &steps, std::size_t n_callers = 0,
+  CountedRun run_counted(const std::string &scene, const Steps &steps,
                          const std::vector<std::string> &overrides = {});
 } // namespace allocations
 

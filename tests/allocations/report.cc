@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Prints what the steps of scenes allocate, and on request from where.
+// Prints what the steps of scenes allocate.
 #include "counted_run.h"
-
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
 
 namespace
 {
@@ -14,7 +9,6 @@ namespace
   struct Options
   {
     Steps steps;
-    std::size_t n_sites = 0, n_callers = 6;
     std::vector<std::string> overrides, scenes;
   };
 
@@ -30,15 +24,11 @@ namespace
         options.steps.warm_up = number(++i);
       else if (argument == "--steps" && has_value)
         options.steps.counted = number(++i);
-      else if (argument == "--sites" && has_value)
-        options.n_sites = number(++i);
-      else if (argument == "--callers" && has_value)
-        options.n_callers = number(++i);
       else if (argument == "--set" && has_value)
         options.overrides.push_back(argv[++i]);
       else if (argument.rfind("--", 0) == 0)
-        throw std::runtime_error("usage: allocations [--warm-up N] [--steps N] [--sites N] "
-                                 "[--callers N] [--set Entry=value]... [SCENE]...");
+        throw std::runtime_error("usage: allocations [--warm-up N] [--steps N] "
+                                 "[--set Entry=value]... [SCENE]...");
       else
         options.scenes.push_back(argument);
     }
@@ -49,20 +39,11 @@ namespace
 
   void print(const Options &options, const std::string &scene)
   {
-    const CountedRun run = run_counted(
-        scene, options.steps, options.n_sites > 0 ? options.n_callers : 0, options.overrides);
+    const CountedRun run = run_counted(scene, options.steps, options.overrides);
     const std::size_t n_steps = run.by_step.size();
     const double n = std::max<std::size_t>(n_steps, 1);
     std::printf("%-28s %5zu %10ld %12.2f %8ld %8ld  %s\n", scene.c_str(), n_steps, run.total(),
                 run.total() / n, run.largest(), run.n_without(), run.ending.c_str());
-    for (std::size_t i = 0; i < std::min(options.n_sites, run.sites.size()); ++i)
-    {
-      std::printf("  %10.2f a step:", run.sites[i].count / n);
-      const std::vector<std::string> &callers = run.sites[i].callers;
-      for (std::size_t k = 0; k < callers.size(); ++k)
-        std::printf("%s %s", k == 0 ? "" : " <", callers[k].c_str());
-      std::printf("\n");
-    }
     std::fflush(stdout);
   }
 } // namespace

@@ -8,9 +8,6 @@
 #include "base/dot.h"
 #include "cable/find_length.h"
 
-#include <cstdio>
-#include <tuple>
-
 namespace
 {
   using namespace verification;

@@ -4,8 +4,6 @@
 #include "cable/one_cable.h"
 #include "verification/scene_tests.h"
 
-#include <cstdio>
-
 namespace
 {
   using namespace verification;

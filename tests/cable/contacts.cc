@@ -5,8 +5,6 @@
 
 #include "model/surface_constraints.h"
 
-#include <tuple>
-
 namespace
 {
   using namespace verification;

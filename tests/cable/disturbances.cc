@@ -9,7 +9,6 @@ namespace
   using namespace verification;
   using namespace taut;
 
-  const double pi = std::acos(-1.);
 
   /// A rope hangs from the origin with a mass that is thrown up.
   const std::string thrown_up = R"(Generator = network; Gravity = 0, -9.81; Start = given

@@ -2,9 +2,9 @@
 #ifndef taut_tests_elastic_catenary_h
 #define taut_tests_elastic_catenary_h
 
-#include <taut/base/coordinates.h>
+#include "common.h"
 
-#include <cmath>
+#include <taut/base/coordinates.h>
 
 /// The elastic catenary in closed form (Irvine, Cable Structures, 1981, section 1.3) between two
 /// places, in the plane of chord and load: forces H across it and V against it at the first end.

@@ -7,15 +7,12 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include <tuple>
-
 namespace
 {
   using namespace verification;
   using namespace taut;
 
   constexpr double EI = 1., EA = 1e6, length = 1.;
-  const double pi = std::acos(-1.);
 
   CableElements make(const unsigned int n)
   {

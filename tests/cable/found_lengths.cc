@@ -8,7 +8,7 @@ namespace
 {
   using namespace taut;
 
-  constexpr double span = 20., g = 9.81;
+  constexpr double span = 20.;
 
   /// A messenger cable 1 m above a string, with droppers at these places.
   std::string line(const std::string &messenger, const std::string &at_cable,

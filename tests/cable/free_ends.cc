@@ -9,8 +9,8 @@ namespace
   using namespace taut;
   using verification::Overrides;
 
-  constexpr double length = 10., w = 9.81, EA = 1e5,
-                   stretched = length + w * length * length / (2. * EA);
+  constexpr double rope_length = 10., w = 9.81, EA = 1e5,
+                   stretched = rope_length + w * rope_length * rope_length / (2. * EA);
 
   const std::string rope = R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
 Body rope: Type = cable; From = 0, 0; To = 0, -10; Unstressed length = 10;
@@ -42,11 +42,11 @@ TEST(FreeEnds, hang_straight_down)
         const Overrides entries = {std::string("Body rope/To=") + to,
                                    "Body rope/Element=" + element,
                                    "Body rope/Elements=" + elements};
-        const Coordinates end = places(entries, length).back(),
-                          middle = places(entries, length / 2.).back();
+        const Coordinates end = places(entries, rope_length).back(),
+                          middle = places(entries, rope_length / 2.).back();
         EXPECT_NEAR(end.y, -stretched, 1e-9);
         EXPECT_NEAR(end.x, 0., 1e-6);
-        EXPECT_NEAR(middle.y, -(length / 2. + w * length * length * 3. / 8. / EA), 1e-9);
+        EXPECT_NEAR(middle.y, -(rope_length / 2. + w * rope_length * rope_length * 3. / 8. / EA), 1e-9);
       }
   const Coordinates other =
       places({"Body rope/Held ends=to", "Body rope/From=0, -9", "Body rope/To=0, 0"}, 0.).back();
@@ -60,7 +60,7 @@ TEST(FreeEnds, come_down_from_the_side)
   {
     const std::string entry = std::string("Body rope/To=") + to;
     for (const char *const kind : {"Body rope/Element=bar", "Body rope/Bending stiffness=1e-3"})
-      EXPECT_NEAR(places({entry, kind}, length).back().y, -stretched, 1e-6) << to << kind;
+      EXPECT_NEAR(places({entry, kind}, rope_length).back().y, -stretched, 1e-6) << to << kind;
     expect(error_of(rope, {entry}), {"Body rope/Bending stiffness", "free end at To", "bar"});
   }
 }
@@ -74,7 +74,7 @@ TEST(FreeEnds, stay_at_rest)
       const std::vector<Coordinates> way =
           places({std::string("Start=") + start, std::string("Body rope/Element=") + element,
                   "Time/End=1"},
-                 length);
+                 rope_length);
       ASSERT_EQ(way.size(), 201u);
       for (const Coordinates &end : way)
         EXPECT_LT(norm(end - Coordinates{0., -stretched}), 1e-9) << element << start;
@@ -93,7 +93,7 @@ TEST(FreeEnds, exactly_taut_without_weight)
 {
   const Overrides straight = {"Gravity=0, 0", "Start=undeformed", "Body rope/Held ends=both",
                               "Body rope/To=6, -8", "Time/End=0.05"};
-  for (const Coordinates &middle : places(straight, length / 2.))
+  for (const Coordinates &middle : places(straight, rope_length / 2.))
     EXPECT_LT(norm(middle - Coordinates{3., -4.}), 1e-12);
   Overrides slack = straight;
   slack.push_back("Body rope/Unstressed length=10.000001");

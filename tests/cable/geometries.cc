@@ -13,7 +13,6 @@ namespace
   using namespace verification;
   using namespace taut;
 
-  const double pi = std::acos(-1.);
 
   std::vector<double> frequencies(const Substructure &body, const unsigned int n)
   {

@@ -7,9 +7,6 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <algorithm>
-#include <vector>
-
 /// The equilibrium of elastic catenaries that meet at nodes, in closed form but for the places of
 /// the nodes: Newton's method on the forces there, with differences as derivatives.
 class JoinedCatenaries

@@ -6,15 +6,13 @@
 #include "cable/places_in_steps.h"
 #include "verification/scene_tests.h"
 
-#include <array>
-
 namespace
 {
   using namespace verification;
   using namespace taut;
 
   constexpr std::size_t n_droppers = 6;
-  constexpr double g = 9.81, unit = 59.88 / 12.,
+  constexpr double unit = 59.88 / 12.,
                    lengths[n_droppers] = {.99, .69, .54, .54, .69, .99};
   /// Where a dropper is in the list of links, whose sections have two each.
   constexpr std::size_t link_of[n_droppers] = {0, 2, 4, 5, 3, 1};

@@ -6,10 +6,6 @@
 #include "output/scene_report.h"
 #include "output/scene_sketch.h"
 
-#include <cstdint>
-#include <cstring>
-#include <tuple>
-
 namespace
 {
   using namespace verification;

@@ -8,8 +8,6 @@
 
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 
-#include <array>
-
 namespace
 {
   using namespace verification;

@@ -11,8 +11,6 @@
 #include "base/dot.h"
 #include <taut/cable/cable.h>
 
-#include <cstdio>
-
 using namespace extremes;
 
 namespace
@@ -22,7 +20,6 @@ namespace
   constexpr double largest_part_of_errors = .05;
   /// What Newton's method leaves of energies and momenta in a step, of the largest.
   constexpr double of_energy = 1e-6;
-  const double pi = std::acos(-1.);
   constexpr double bar = -1.; ///< instead of EI
 
   unsigned int n_scenes = 0, n_errors = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "extended_complementarity.h"
 
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

@@ -4,8 +4,6 @@
 
 #include "extended_model.h"
 
-#include <optional>
-
 namespace extremes
 {
   /// The mean force of an elastic contact that keeps the energy W = stiffness max(0, u)^2 / 2 over

@@ -2,10 +2,6 @@
 // The matrices of a small scene in extended precision, independent of those of the library.
 #include "extended_model.h"
 
-#include <algorithm>
-#include <numeric>
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

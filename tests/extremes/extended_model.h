@@ -2,13 +2,13 @@
 #ifndef taut_extremes_extended_model_h
 #define taut_extremes_extended_model_h
 
+#include "common.h"
+
 #include <taut/scene/scene.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <utility>
 #include <valarray>
-#include <vector>
 
 namespace extremes
 {

@@ -3,8 +3,6 @@
 
 #include "extended_complementarity.h"
 
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

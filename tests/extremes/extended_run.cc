@@ -7,9 +7,6 @@
 #include "extended_scheme.h"
 #include "extended_system.h"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

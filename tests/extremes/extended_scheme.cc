@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "extended_scheme.h"
 
-#include <stdexcept>
-
 namespace extremes
 {
   ExtendedScheme::ExtendedScheme(const std::string &name, const Number &step)

@@ -4,8 +4,6 @@
 
 #include "extended_model.h"
 
-#include <string>
-
 namespace extremes
 {
   /// Of all bodies at the end of a step, and what schemes look back at.

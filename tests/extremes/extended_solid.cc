@@ -4,9 +4,6 @@
 #include "extended_run.h"
 #include "solid_case.h"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

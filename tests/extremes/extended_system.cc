@@ -3,9 +3,6 @@
 
 #include "extended_complementarity.h"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace extremes
 {
   namespace

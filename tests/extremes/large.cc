@@ -4,13 +4,10 @@
 #include "common.h"
 #include "observation.h"
 
-#include <cstdio>
-
 using namespace extremes;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   Case heavy_wire(const double length, const double n_elements, const taut::TransverseKind kind,
                   const bool is_held)

@@ -4,10 +4,6 @@
 
 #include "pairwise.h"
 
-#include <sstream>
-#include <stdexcept>
-#include <string>
-
 namespace extremes
 {
   struct Dimension

@@ -2,11 +2,6 @@
 // What is compared of two runs of one scene, and how; see observation.h.
 #include "observation.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-
 namespace extremes
 {
   namespace

@@ -2,11 +2,9 @@
 #ifndef taut_extremes_observation_h
 #define taut_extremes_observation_h
 
-#include <taut/scene/scene.h>
+#include "common.h"
 
-#include <array>
-#include <string>
-#include <vector>
+#include <taut/scene/scene.h>
 
 namespace verification
 {

@@ -2,12 +2,6 @@
 // Covering arrays of strength two; see pairwise.h.
 #include "pairwise.h"
 
-#include <algorithm>
-#include <numeric>
-#include <random>
-#include <set>
-#include <tuple>
-
 namespace extremes
 {
   std::vector<std::vector<std::size_t>> pairwise(const std::vector<std::size_t> &levels,

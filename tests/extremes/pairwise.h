@@ -2,8 +2,7 @@
 #ifndef taut_extremes_pairwise_h
 #define taut_extremes_pairwise_h
 
-#include <cstddef>
-#include <vector>
+#include "common.h"
 
 namespace extremes
 {

@@ -4,10 +4,6 @@
 
 #include "levels.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace extremes
 {
   namespace

@@ -2,11 +2,6 @@
 // All numbers of a case with their dimensions: to change units, or last digits.
 #include "scene_numbers.h"
 
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <functional>
-
 namespace extremes
 {
   namespace

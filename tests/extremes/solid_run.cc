@@ -11,8 +11,6 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <limits>
-
 namespace extremes
 {
   namespace

@@ -7,8 +7,6 @@
 #include "solid_case.h"
 #include "tally.h"
 
-#include <cmath>
-
 using namespace extremes;
 
 namespace

@@ -5,13 +5,6 @@
 
 #include "scene_numbers.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
-
 namespace extremes
 {
   class Tally

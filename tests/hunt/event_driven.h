@@ -4,9 +4,6 @@
 
 #include "phase.h"
 
-#include <map>
-#include <stdexcept>
-
 namespace hunt
 {
   /// A motion that the reference cannot follow, with the reason.

@@ -2,7 +2,7 @@
 #ifndef taut_hunt_history_h
 #define taut_hunt_history_h
 
-#include <vector>
+#include "common.h"
 
 namespace hunt
 {

@@ -7,7 +7,6 @@
 #include "verdict.h"
 
 #include <chrono>
-#include <cstdio>
 
 namespace
 {

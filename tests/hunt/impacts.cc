@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "event_driven.h"
 
-#include <algorithm>
-
 namespace hunt
 {
   namespace

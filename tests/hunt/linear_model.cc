@@ -3,8 +3,6 @@
 
 #include <deal.II/lac/vector.h>
 
-#include <stdexcept>
-
 namespace hunt
 {
   LinearModel::LinearModel(const taut::StepView &view, const double frequency)

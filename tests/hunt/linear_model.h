@@ -9,9 +9,6 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <cmath>
-#include <memory>
-
 namespace hunt
 {
   using taut::dot;

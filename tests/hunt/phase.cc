@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "phase.h"
 
-#include <algorithm>
-#include <functional>
-#include <stdexcept>
-
 namespace hunt
 {
   namespace

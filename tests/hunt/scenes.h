@@ -2,10 +2,7 @@
 #ifndef taut_hunt_scenes_h
 #define taut_hunt_scenes_h
 
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "common.h"
 
 namespace hunt
 {

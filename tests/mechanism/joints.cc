@@ -6,14 +6,10 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <array>
-
 namespace
 {
   using namespace verification;
   using taut::Coordinates;
-
-  const double pi = std::acos(-1.), g = 9.81;
 
   /// Where a place of a body is.
   Coordinates place(const taut::StepView &view, const std::size_t k, const Coordinates &undeformed)

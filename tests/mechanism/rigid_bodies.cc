@@ -8,8 +8,6 @@
 
 #include <boost/math/special_functions/ellint_1.hpp>
 
-#include <array>
-
 namespace
 {
   using namespace mechanism;
@@ -292,7 +290,6 @@ TEST(RigidBodies, a_second_scheme)
 // Where nothing turns the body, what its conditions miss is rounding: there is always an answer.
 TEST(RigidBodies, free_fall_and_rest_have_an_answer_for_any_mass)
 {
-  const double g = 9.81;
   for (int mass = 1; mass <= 20; ++mass)
     for (const std::array<double, 3> &moments :
          {std::array<double, 3>{1., 2., 2.5}, {.3, .3, .5}, {7., 11., 13.}})

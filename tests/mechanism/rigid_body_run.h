@@ -10,7 +10,6 @@
 
 namespace mechanism
 {
-  const double pi = std::acos(-1.);
 
   struct OneBody : verification::OneBody<taut::RigidBody>
   {

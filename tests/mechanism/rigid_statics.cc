@@ -12,7 +12,6 @@ namespace
   using namespace mechanism;
   using namespace taut;
 
-  constexpr double g = 9.81;
 
   RigidBodyData bar(const double angle)
   {

@@ -6,9 +6,7 @@
 #include "base/rank_abort.h"
 #include <taut/base/communicator.h>
 
-#include <limits>
 #include <new>
-#include <stdexcept>
 
 namespace
 {

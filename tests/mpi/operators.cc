@@ -43,7 +43,7 @@ namespace
     {
       for (std::size_t i = 0; i <= n; ++i)
         system.add("mass " + std::to_string(i), i % processes.size(),
-                   [i] { return door::chain_of("mass", {mass(i)}, {stiffness(i)}); });
+                   [i] { return library::chain_of("mass", {mass(i)}, {stiffness(i)}); });
       for (std::size_t i = 0; i < n; ++i)
         system.add(taut::Constraint::unilateral("stop " + std::to_string(i), up(i), up(i + 1)));
     }
@@ -160,7 +160,7 @@ TEST(Operators, half_columns_are_those_of_solves)
     springs.push_back(1e6 * stiffness(i));
   }
   for (const std::size_t rank : {std::size_t(0), processes.size() - std::size_t(1)})
-    system.add("chain", rank, [&] { return door::chain_of("chain", masses, springs); });
+    system.add("chain", rank, [&] { return library::chain_of("chain", masses, springs); });
   const auto up = [&](const std::size_t body, const std::size_t i) {
     return system.displacement(body, {static_cast<double>(i % n_masses), 0., 0.}, {0., 1., 0.});
   };

@@ -3,8 +3,6 @@
 // without cuts.
 #include "nodes.h"
 
-#include <array>
-#include <limits>
 #include <taut/substructure/factored_structure.h>
 
 using namespace verification;

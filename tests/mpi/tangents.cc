@@ -5,10 +5,6 @@
 
 #include "time/step_equations.h"
 
-#include <gtest/gtest.h>
-
-#include <numeric>
-
 using namespace verification;
 
 TEST(Tangents, are_made_definite_on_all_ranks_together)

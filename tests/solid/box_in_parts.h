@@ -8,9 +8,6 @@
 
 #include <deal.II/grid/grid_generator.h>
 
-#include <cmath>
-#include <memory>
-
 namespace box_in_parts
 {
   /// A square or cube of elements of size 1, E = 1, nu = 0.3, density 1, in equal boxes.

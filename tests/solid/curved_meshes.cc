@@ -100,8 +100,8 @@ namespace
   /// A file of one element in a format of gmsh.
   struct OneElement
   {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("taut_one_" + std::to_string(getpid()) + ".msh");
+    const verification::Folder folder;
+    const std::filesystem::path path = folder / "one.msh";
 
     OneElement(const Elements &e, const std::string &format)
     {

@@ -3,8 +3,6 @@
 #include "solid/box_in_parts.h"
 #include "verification/scene_tests.h"
 
-#include <set>
-
 namespace
 {
   using box_in_parts::Box;

@@ -52,7 +52,7 @@ namespace
                 result.energy = energy / start_energy;
                 result.rebound = std::accumulate(MV.begin(), MV.end(), 0.) / 10.;
                 result.contact_energy = view.measures.summary().contact_energy;
-                result.residuals = std::fmax(result.residuals, view.residuals.max());
+                result.certificate = std::fmax(result.certificate, view.residuals.max());
               });
     result.plateau =
         std::accumulate(plateau.begin(), plateau.end(), 0.) / static_cast<double>(plateau.size());

@@ -323,8 +323,7 @@ namespace
           result.tip = verification::displacement(view, terms);
         });
     result.log = session.log();
-    const nlohmann::json said =
-        nlohmann::json::parse(verification::file_text(session.folder() + "/statistics.json"));
+    const nlohmann::json said = session.statistics();
     for (const auto &warning : said.at("warnings"))
       if (warning.at("kind") == "locking")
         result.locked = warning.at("value");

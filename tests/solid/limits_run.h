@@ -8,8 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
-
 namespace solid_limits
 {
   using verification::has;

@@ -3,34 +3,19 @@
 #ifndef taut_tests_mesh_file_h
 #define taut_tests_mesh_file_h
 
+#include "common.h"
+
 #include <deal.II/grid/tria.h>
-
-#include <unistd.h>
-
-#include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace verification
 {
-  /// A file in gmsh's format 2.2, which is removed again. Nodes count from 1 as they are added.
+  /// A file in gmsh's format 2.2. Nodes count from 1 as they are added.
   class MeshFile
   {
   public:
     static constexpr int line = 1, triangle = 2, quadrilateral = 3, tetrahedron = 4, hexahedron = 5;
 
-    MeshFile()
-    {
-      static int count = 0;
-      file = std::filesystem::temp_directory_path() /
-             ("taut_mesh_" + std::to_string(getpid()) + "_" + std::to_string(++count) + ".msh");
-      nodes.precision(17);
-    }
-    MeshFile(const MeshFile &) = delete;
-    ~MeshFile() { std::filesystem::remove(file); }
+    MeshFile() { nodes.precision(17); }
 
     /// Of a triangulation, whose boundary ids become larger by @p first_id.
     template <int dim>
@@ -71,16 +56,14 @@ namespace verification
 
     std::string path() const
     {
-      std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
-                          << n_nodes << '\n'
-                          << nodes.str() << "$EndNodes\n$Elements\n"
-                          << n_elements << '\n'
-                          << elements.str() << "$EndElements\n";
-      return file.string();
+      return folder.write("mesh.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" +
+                                          std::to_string(n_nodes) + "\n" + nodes.str() +
+                                          "$EndNodes\n$Elements\n" + std::to_string(n_elements) +
+                                          "\n" + elements.str() + "$EndElements\n");
     }
 
   private:
-    std::filesystem::path file;
+    Folder folder;
     std::size_t n_nodes = 0, n_elements = 0;
     std::ostringstream nodes, elements;
   };

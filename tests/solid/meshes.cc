@@ -7,8 +7,6 @@
 
 #include <taut/scene/contact_surface.h>
 
-#include <array>
-
 namespace
 {
   using namespace verification;
@@ -49,7 +47,7 @@ namespace
     std::vector<taut::Coordinates> points;
     std::vector<double> u;
   };
-  Sides equilibrium(const std::string &text)
+  Sides sides_at_rest(const std::string &text)
   {
     Sides sides;
     run_scene(text, {},
@@ -71,7 +69,7 @@ namespace
   /// At the top of a hole of radius 1 m in a plate of 80 m x 20 m under 1 MPa [MPa].
   double stress_beside_hole(const int local_refinements)
   {
-    const Sides sides = equilibrium(scene("Young's modulus = 1e9; Degree = 2; Plane state = "
+    const Sides sides = sides_at_rest(scene("Young's modulus = 1e9; Degree = 2; Plane state = "
                                           "stress; Fixed boundaries = 0; Traction = 1: 1e6, 0",
                                           "Generator = plate_with_a_hole; Arguments = 1 : 2 : 8, "
                                           "8, 38, 38 : 0, 0; Local refinements = " +
@@ -100,7 +98,7 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
     for (const std::string degree : {"1", "2"})
     {
       const Sides sides =
-          equilibrium(scene(two_materials + "; Degree = " + degree +
+          sides_at_rest(scene(two_materials + "; Degree = " + degree +
                                 "; Symmetry boundaries = 11, 13; Traction = 12: 1e6, 0",
                             "File = " + mesh_file(name)));
       unsigned int n_right = 0;
@@ -117,9 +115,8 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
 // A mesh is found relative to the parameter file, from whichever folder it is run.
 TEST(SolidMeshes, files_are_relative_to_the_parameter_file)
 {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("taut_relative_" + std::to_string(getpid())),
-                 file = folder / "scenes" / "plate.prm";
+  const Folder scratch;
+  const fs::path &folder = scratch.path, file = folder / "scenes" / "plate.prm";
   fs::create_directories(folder / "scenes" / "meshes");
   fs::copy_file(mesh_file("quadrilaterals.msh"), folder / "scenes" / "meshes" / "plate.msh");
   std::ofstream(file) << SceneBuilder(scene(two_materials + "; Symmetry boundaries = 11, 13; "
@@ -130,11 +127,10 @@ TEST(SolidMeshes, files_are_relative_to_the_parameter_file)
   for (const fs::path &from : {folder, folder / "scenes", fs::temp_directory_path()})
   {
     fs::current_path(from);
-    const std::vector<double> u = equilibrium(fs::relative(file).string()).u;
+    const std::vector<double> u = sides_at_rest(fs::relative(file).string()).u;
     EXPECT_NEAR(largest(u), 1e-3 + 1e-3 / 3., 1e-14) << from;
   }
   fs::current_path(before);
-  fs::remove_all(folder);
 }
 
 TEST(SolidMeshes, that_are_none_end_in_one_error)
@@ -164,7 +160,7 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
     expect_error(scene(one_material, file + OneCell(corners).path()), {"Body plate/Mesh/File"});
   // One that runs the other way round is turned.
   const OneCell clockwise({{0., 0.}, {0., 1.}, {1., 1.}, {1., 0.}});
-  EXPECT_EQ(equilibrium(scene(one_material, file + clockwise.path())).points.size(), 4u);
+  EXPECT_EQ(sides_at_rest(scene(one_material, file + clockwise.path())).points.size(), 4u);
 }
 
 TEST(SolidMeshes, of_plates_with_a_hole_are_checked)

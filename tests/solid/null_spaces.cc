@@ -12,8 +12,6 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/lac/sparse_matrix.h>
 
-#include <array>
-
 namespace
 {
   constexpr double spring = 100., to_the_ground = 10.;
@@ -65,8 +63,8 @@ namespace
     taut::FEBody<1>::Options options;
   };
 
-  taut::StaticState equilibrium(const taut::System &system,
-                                const taut::InterfaceParameters &interface = {})
+  taut::StaticState state_at_rest(const taut::System &system,
+                                  const taut::InterfaceParameters &interface = {})
   {
     taut::SolverParameters parameters;
     parameters.interface = interface;
@@ -87,7 +85,7 @@ TEST(NullSpaces, motions_that_the_stiffness_resists_are_left_out)
     EXPECT_TRUE(chain.body()->null_space().vectors.empty());
     taut::System system;
     system.add("chain", [&] { return chain.body(); });
-    const std::vector<double> U = equilibrium(system).displacement[0];
+    const std::vector<double> U = state_at_rest(system).displacement[0];
     for (unsigned int i = 0; i < 4; ++i)
       EXPECT_NEAR(U[i], 3. / to_the_ground + i * 3. / spring, 1e-13);
   }
@@ -111,7 +109,7 @@ TEST(NullSpaces, combinations_of_motions_that_the_stiffness_resists_are_found)
   const taut::LinearForm last =
       static_cast<const taut::FEBody<1> &>(*system.body(body)).displacement_of_dof(3);
   system.add(taut::Constraint::bilateral("hold", {{0, last}}));
-  const taut::StaticState state = equilibrium(system);
+  const taut::StaticState state = state_at_rest(system);
   const std::vector<double> expected = {2. / to_the_ground, 2. / to_the_ground + 2. / spring,
                                         5. / spring, 0.};
   EXPECT_LT(verification::largest_difference(expected, state.displacement[0]), 1e-13);
@@ -148,7 +146,7 @@ TEST(NullSpaces, searches_get_past_constraints_that_do_not_hold_a_body)
           taut::Constraint::unilateral("point", system.displacement(block, {x, 0., 0.}, up)));
     system.add(taut::Constraint::bilateral("side",
                                            system.displacement(block, {1., 0., 0.}, {1., 0., 0.})));
-    const taut::StaticState state = equilibrium(system, {form, "Dirichlet", "rigid body modes"});
+    const taut::StaticState state = state_at_rest(system, {form, "Dirichlet", "rigid body modes"});
     EXPECT_TRUE(state.residuals.fallback) << form;
     EXPECT_LT(verification::largest_difference({0., 5., 1., 0.}, state.multiplier), 1e-10) << form;
   }

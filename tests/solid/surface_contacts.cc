@@ -21,7 +21,7 @@ namespace
   };
 
   /// The first contact of a scene in its equilibrium.
-  Found equilibrium(const std::string &scene, const Overrides &overrides = {})
+  Found found_at_rest(const std::string &scene, const Overrides &overrides = {})
   {
     Found found;
     const auto record = [&](const taut::StepView &view)
@@ -75,7 +75,7 @@ namespace
   Hertz cylinder(const int local_refinements)
   {
     const Found found =
-        equilibrium(scene_file("hertz_cylinder"),
+        found_at_rest(scene_file("hertz_cylinder"),
                     {"Body cylinder/Mesh/Local refinements=" + std::to_string(local_refinements)});
     const double modulus = 1e9 / (1. - .09), force = 2. * found.resultant,
                  a = std::sqrt(4. * force / (M_PI * modulus)),
@@ -110,7 +110,7 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
   for (const std::string degree : {"1", "2"})
     for (const Overrides &sides : {Overrides(), swapped})
     {
-      const Found found = equilibrium(
+      const Found found = found_at_rest(
           scene, sides + Overrides{"Body upper/Degree=" + degree, "Body lower/Degree=" + degree});
       ASSERT_GT(found.force.size(), 5u);
       error = std::fmax(error, deviation_from_1e6(found));
@@ -120,7 +120,7 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
   EXPECT_LT(error, 1e-10);
   // Nodes on segments cannot.
   const double other =
-      deviation_from_1e6(equilibrium(scene, {"Contact joint/Method=nodes to faces"}));
+      deviation_from_1e6(found_at_rest(scene, {"Contact joint/Method=nodes to faces"}));
   figure("patch test, nodes to faces: largest error of the pressure", other);
   EXPECT_GT(other, 1e-3);
 }
@@ -129,7 +129,7 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
 // foot, whose areas add up to 1 m^2 without hanging nodes, and a floor of 1e-9 m/Pa yields 1 mm.
 TEST(SurfaceContacts, hanging_nodes_and_compliance_leave_a_uniform_pressure_as_it_is)
 {
-  const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
+  const Found found = found_at_rest(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
 Body cube: Type = solid; Dimension = 3; Young's modulus = 1e9; Poisson's ratio = 0.3;
   Density = 2000; Symmetry boundaries = 0, 2; Traction = 5: 0, 0, -1e6
 Body cube/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1;
@@ -162,7 +162,7 @@ TEST(SurfaceContacts, a_slit_is_pressed_shut)
   const double strain = 1e-3, stress = 1e9 * .7 / (1.3 * .4) * strain;
   for (const std::string operator_name : {"assembled dense", "assembled sparse", "matrix-free"})
   {
-    const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
+    const Found found = found_at_rest(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
 Body square: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;
   Displacement = 10: -1e-3*x, 0
 Body square/Mesh: File = )" + mesh.path() +
@@ -214,7 +214,7 @@ TEST(SurfaceContacts, a_cylinder_is_pressed_as_by_hertz)
 
 TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
 {
-  const Found found = equilibrium(scene_file("hertz_sphere"));
+  const Found found = found_at_rest(scene_file("hertz_sphere"));
   const double modulus = 1e9 / (1. - .09), force = 4. * found.resultant,
                a = std::cbrt(3. * force / (4. * modulus)), p0 = 3. * force / (2. * M_PI * a * a);
   figure("Hertz' ball, half-width", a, "m");
@@ -232,7 +232,7 @@ TEST(SurfaceContacts, a_thousand_nodes_find_their_contacts_in_few_sets)
   std::vector<double> part;
   for (const unsigned int n : {260u, 500u, 1000u})
   {
-    const Found found = equilibrium(wavy_floor::scene(n));
+    const Found found = found_at_rest(wavy_floor::scene(n));
     ASSERT_EQ(found.force.size(), n + 1);
     double n_closed = 0.;
     for (const double force : found.force)
@@ -254,7 +254,7 @@ TEST(SurfaceContacts, a_thousand_nodes_find_their_contacts_in_few_sets)
 // Those that a projected Gauss-Seidel method closes, tests/install/library/membrane.cc (step-41).
 TEST(SurfaceContacts, a_membrane_lies_on_395_nodes_of_a_staircase)
 {
-  const Found found = equilibrium(scene_file("membrane_over_obstacle"));
+  const Found found = found_at_rest(scene_file("membrane_over_obstacle"));
   ASSERT_EQ(found.force.size(), 1089u);
   const auto n_closed = std::count_if(found.force.begin(), found.force.end(),
                                       [](const double force) { return force > 0.; });

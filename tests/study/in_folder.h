@@ -6,10 +6,6 @@
 #include "common.h"
 #include "verification/scene_builder.h"
 
-#include <unistd.h>
-
-#include <filesystem>
-
 namespace studies
 {
   using Texts = std::vector<std::string>;
@@ -27,24 +23,14 @@ Probe place: Point = block
   class InFolder : public testing::Test
   {
   protected:
-    InFolder()
-        : folder(std::filesystem::temp_directory_path() /
-                 ("taut_study_" + std::to_string(getpid())))
-    {
-      std::filesystem::create_directories(folder);
-      std::filesystem::current_path(folder);
-    }
-    ~InFolder() override
-    {
-      std::filesystem::current_path(std::filesystem::temp_directory_path());
-      std::filesystem::remove_all(folder);
-    }
+    InFolder() { std::filesystem::current_path(folder.path); }
+    ~InFolder() override { std::filesystem::current_path(std::filesystem::temp_directory_path()); }
     static void write(const std::string &scene)
     {
       std::ofstream("scene.prm") << verification::prm(scene);
     }
 
-    std::filesystem::path folder;
+    const verification::Folder folder;
     std::ostringstream log;
   };
 

@@ -10,8 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <limits>
-
 namespace
 {
   namespace fs = std::filesystem;

@@ -6,10 +6,6 @@
 
 #include <taut/simulation/simulation.h>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <set>
 
 namespace
 {
@@ -160,35 +156,19 @@ namespace
   protected:
     void SetUp() override
     {
-      static int count = 0;
-      folder = fs::temp_directory_path() /
-               ("taut_bad_input_" + std::to_string(getpid()) + "_" + std::to_string(++count));
       make_earlier_results();
       before = fs::current_path();
       fs::current_path(folder);
     }
 
-    void TearDown() override
-    {
-      fs::current_path(before);
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-    }
+    void TearDown() override { fs::current_path(before); }
 
-    void write(const std::string &name, const std::string &text)
-    {
-      std::ofstream(folder / name, std::ios::binary) << text;
-    }
+    void write(const std::string &name, const std::string &text) { scratch.write(name, text); }
 
-    std::string content(const std::string &name)
-    {
-      std::ifstream in(folder / name);
-      return {std::istreambuf_iterator<char>(in), {}};
-    }
+    std::string content(const std::string &name) { return file_text(scratch / name); }
 
     void make_earlier_results()
     {
-      fs::create_directories(folder / "results");
       write("results/used.prm", "earlier");
       write("results/links.csv", "earlier");
     }
@@ -234,7 +214,9 @@ namespace
                          { return entry.first == path || entry.first.rfind(path + "/", 0) == 0; });
     }
 
-    fs::path folder, before;
+    const Folder scratch;
+    const fs::path folder = scratch.path;
+    fs::path before;
   };
 
   /// "scene.prm:<line>:" of the mark " # here", if there is one, and with the path and the value

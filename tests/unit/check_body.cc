@@ -16,10 +16,10 @@ namespace
 
   /// Masses in a row; before each but the first a spring of force k e + cubic e^3 and a damper.
   /// What the mistake names is too large by a thousandth.
-  class Row : public taut::Substructure
+  class BodyRow : public taut::Substructure
   {
   public:
-    Row(const unsigned int n, const std::string &mistake = "", const bool linear = false)
+    BodyRow(const unsigned int n, const std::string &mistake = "", const bool linear = false)
         : Substructure("row"), mistake(mistake), linear(linear), cubic(linear ? 0. : 3e3),
           viscosity(linear ? 0. : 7.), drag(linear ? 0. : 50.)
     {
@@ -149,7 +149,7 @@ TEST(CheckBody, finds_each_mistake)
       {"mean tangent", "mean_tangent() at DoFs"}};
   for (const auto &[mistake, name] : names)
   {
-    const Row row(5, mistake);
+    const BodyRow row(5, mistake);
     const std::string found = text_of(taut::check_body(row, some_displacement(5, .2), .1));
     EXPECT_TRUE(name.empty() ? found.empty() : verification::has(found, "body 'row': " + name))
         << mistake << ": " << found;
@@ -158,13 +158,13 @@ TEST(CheckBody, finds_each_mistake)
 
 TEST(CheckBody, reports_the_place_and_both_values)
 {
-  const Row row(5, "force");
+  const BodyRow row(5, "force");
   const std::vector<std::string> found = taut::check_body(row, some_displacement(5, .2), .1);
   ASSERT_FALSE(found.empty());
   Vector f, sound;
   const Vector U = some_displacement(5, .2);
   row.internal_force(U, {}, f);
-  Row(5).internal_force(U, {}, sound);
+  BodyRow(5).internal_force(U, {}, sound);
   double said = 0., expected = 0.;
   unsigned int dof = 0;
   ASSERT_EQ(std::sscanf(found[0].c_str(),
@@ -181,8 +181,8 @@ TEST(CheckBody, reports_the_place_and_both_values)
 TEST(CheckBody, linear_bodies_and_their_null_space)
 {
   const Vector U = some_displacement(4, 3.);
-  EXPECT_EQ(text_of(taut::check_body(Row(4, "", true), U)), "");
-  const std::string found = text_of(taut::check_body(Row(4, "null space", true), U));
+  EXPECT_EQ(text_of(taut::check_body(BodyRow(4, "", true), U)), "");
+  const std::string found = text_of(taut::check_body(BodyRow(4, "null space", true), U));
   EXPECT_TRUE(verification::has(found, "null_space()")) << found;
 }
 
@@ -212,7 +212,7 @@ TEST(CheckBody, bodies_of_the_library_are_sound)
 
 TEST(CheckBody, needs_what_fits)
 {
-  const Row row(3);
+  const BodyRow row(3);
   EXPECT_THROW(taut::check_body(row, Vector(2, 0.)), taut::UserError);
   EXPECT_THROW(taut::check_body(row, Vector(3, 0.), -1.), taut::UserError);
 }

@@ -6,7 +6,6 @@
 #include "complementarity/energy_ordered.h"
 #include "complementarity/solver.h"
 
-#include <limits>
 #include <new>
 #include <type_traits>
 

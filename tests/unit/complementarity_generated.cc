@@ -6,8 +6,6 @@
 
 #include "complementarity/solver.h"
 
-#include <iostream>
-
 namespace
 {
   using namespace taut;

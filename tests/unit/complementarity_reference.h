@@ -2,12 +2,8 @@
 #ifndef taut_complementarity_reference_h
 #define taut_complementarity_reference_h
 
+#include "common.h"
 #include "complementarity/problem.h"
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
 
 /// G row by row from its entries, row-major, zeros left out.
 inline std::vector<taut::LinearForm> mode_equations(std::size_t n_rows,

@@ -4,21 +4,14 @@
 
 #include "output/power_spectrum.h"
 #include "output/rainflow.h"
-#include <taut/base/exceptions.h>
 #include <taut/output/contact_quantities.h>
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/support_figures.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
 
 using namespace taut;
 
 namespace
 {
-  const double pi = std::acos(-1.);
 
   /// 100 N, and waves of 8 N at 1 Hz and 4 N at 10 Hz, for 20 s at 1 ms and 10 m/s.
   ContactRecord waves(std::vector<double> &times)

@@ -3,15 +3,11 @@
 #ifndef taut_tests_contact_meshes_h
 #define taut_tests_contact_meshes_h
 
+#include "common.h"
+
 #include <taut/scene/contact_surface.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <functional>
-#include <numeric>
-#include <random>
-#include <vector>
 
 namespace contact_meshes
 {

@@ -5,11 +5,6 @@
 
 #include "contact_meshes.h"
 
-#include <array>
-#include <map>
-#include <tuple>
-#include <utility>
-
 namespace contact_meshes
 {
   struct Form

@@ -7,8 +7,6 @@
 
 #include <taut/solid/contact_constraints.h>
 
-#include <iostream>
-
 namespace
 {
   using namespace contact_meshes;
@@ -173,7 +171,7 @@ namespace
     EXPECT_LT(seconds, 30.);
   }
 
-  std::string message(const ContactSurface &slave, const ContactSurface &master,
+  std::string error_between(const ContactSurface &slave, const ContactSurface &master,
                       const double t = 1., const double distance = 0.)
   {
     return verification::error_of([&] { mortar_constraints(slave, master, t, distance); });
@@ -186,15 +184,15 @@ namespace
                          upper = on_curve({0., 1.}, 1, level(.5), false, random),
                          turned = on_curve({0., 1.}, 1, level(.5), true, random),
                          beside = on_curve({2., 3.}, 1, level(.5), false, random);
-    EXPECT_EQ(message(lower, upper), "");
+    EXPECT_EQ(error_between(lower, upper), "");
     const auto expect = [](const std::string &text, const std::string &part)
     { EXPECT_TRUE(verification::has(text, part)) << text; };
-    expect(message(lower, upper, 1., .1), "within 0.1 m; the smallest distance between them is "
+    expect(error_between(lower, upper, 1., .1), "within 0.1 m; the smallest distance between them is "
                                           "about 0.5 m");
-    expect(message(lower, turned), "no face of the first faces the second");
-    expect(message(lower, beside), "'lower' and 'upper': no face");
-    expect(message(lower, upper, 0.), "thickness");
-    expect(message(lower, upper, 1., -1.), "search distance is -1");
+    expect(error_between(lower, turned), "no face of the first faces the second");
+    expect(error_between(lower, beside), "'lower' and 'upper': no face");
+    expect(error_between(lower, upper, 0.), "thickness");
+    expect(error_between(lower, upper, 1., -1.), "search distance is -1");
     const std::pair<std::function<void(ContactSurface &)>, std::string> spoils[] = {
         {[](ContactSurface &s) { s.faces[0][1] = 7; }, "'lower': face 0 at ("},
         {[](ContactSurface &s) { s.faces[0][1] = 7; }, "names node 7 of 2"},
@@ -211,8 +209,8 @@ namespace
     {
       ContactSurface wrong = lower;
       spoil(wrong);
-      expect(message(wrong, upper), part);
-      expect(message(upper, wrong), part);
+      expect(error_between(wrong, upper), part);
+      expect(error_between(upper, wrong), part);
     }
   }
 } // namespace

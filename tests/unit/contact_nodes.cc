@@ -5,8 +5,6 @@
 #include "contact_meshes_space.h"
 #include <taut/solid/contact_constraints.h>
 
-#include <iostream>
-
 namespace
 {
   using namespace contact_meshes;

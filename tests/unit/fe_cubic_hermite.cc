@@ -22,10 +22,6 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <array>
-#include <iostream>
-#include <set>
-
 namespace
 {
   using namespace dealii;

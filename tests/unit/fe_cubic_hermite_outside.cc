@@ -26,7 +26,6 @@
 #include <deal.II/numerics/solution_transfer.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <iostream>
 #include <type_traits>
 
 namespace

@@ -6,8 +6,6 @@
 
 #include <deal.II/base/function_parser.h>
 
-#include <cstdint>
-#include <cstring>
 #include <thread>
 
 namespace

@@ -10,7 +10,6 @@
 #include <taut/substructure/fe_body.h>
 #include <taut/time/stepper.h>
 
-#include <stdexcept>
 #include <type_traits>
 
 namespace

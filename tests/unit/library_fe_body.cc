@@ -16,8 +16,6 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/numerics/matrix_tools.h>
 
-#include <limits>
-
 namespace
 {
   using namespace verification;

@@ -12,11 +12,6 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
-#include <unistd.h>
-
-#include <array>
-#include <filesystem>
-
 namespace
 {
   using verification::error_of;
@@ -215,19 +210,16 @@ TEST(LibrarySteps, a_body_without_stiffness_is_named)
 
 TEST(LibrarySteps, all_observers_finish)
 {
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / ("taut_finish_" + std::to_string(getpid())))
-          .string();
+  const verification::Folder folder;
   std::string said;
   verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
                                          std::vector<double>{1.});
   taut::Stepper stepper(one.system, verification::steps_of(1e-3, taut::Start::given));
-  taut::ObservedRun run(stepper, folder);
+  taut::ObservedRun run(stepper, folder.path.string());
   for (const char *failure : {"", "first", "", "second", ""})
     run.observe(std::make_unique<Finishing>(failure, said));
   run.begin();
   run.advance();
   EXPECT_EQ(error_of([&] { run.finish(); }), "first");
   EXPECT_EQ(said, "fffff");
-  std::filesystem::remove_all(folder);
 }

@@ -9,11 +9,8 @@
 #include <taut/output/fields.h>
 #include <taut/output/series.h>
 #include <taut/output/statistics.h>
+#include <taut/simulation/checkpoints.h>
 #include <taut/simulation/observed_run.h>
-
-#include <unistd.h>
-
-#include <filesystem>
 
 namespace
 {
@@ -77,12 +74,10 @@ namespace
 
 TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
 {
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / ("taut_observed_" + std::to_string(getpid())))
-          .string();
-  const Result whole = run(folder + "/whole", end, false);
-  run(folder + "/parts", .23, false);
-  const Result parts = run(folder + "/parts", end, true);
+  const verification::Folder folder;
+  const Result whole = run(folder / "whole", end, false);
+  run(folder / "parts", .23, false);
+  const Result parts = run(folder / "parts", end, true);
   EXPECT_NE(parts.log.find("Resumed after t = 0.2"), std::string::npos) << parts.log;
   EXPECT_NE(parts.log.find(" steps in "), std::string::npos) << parts.log;
   EXPECT_EQ(whole.state.U, parts.state.U);
@@ -94,7 +89,7 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
       2. * library::gravity * fall + 2. * library::gravity * (whole.state.time - fall);
   EXPECT_NEAR(whole.impulse, exact, 1e-2 * exact);
   EXPECT_EQ(whole.uplift, 0.);
-  const auto files = files_in(folder + "/whole"), others = files_in(folder + "/parts");
+  const auto files = files_in(folder / "whole"), others = files_in(folder / "parts");
   for (const char *name : {"links.csv", "probes.csv", "certificate.csv", "energy.csv",
                            "body_cable.pvd", "body_cable_00000.vtu", "checkpoint"})
     EXPECT_EQ(files.count(name), 1u) << name;
@@ -104,5 +99,4 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
     EXPECT_TRUE(content == others.at(name)) << name;
   }
   EXPECT_EQ(files.size(), others.size());
-  std::filesystem::remove_all(folder);
 }

@@ -58,7 +58,7 @@ namespace
     }
   };
 
-  void expect_near(const std::vector<double> &a, const std::vector<double> &b)
+  void expect_close(const std::vector<double> &a, const std::vector<double> &b)
   {
     EXPECT_LE(verification::largest_difference(a, b), 1e-12);
   }
@@ -69,10 +69,10 @@ namespace
     std::vector<double> y, z;
     F.dense.apply(x, y);
     F.sparse.apply(x, z);
-    expect_near(y, z);
+    expect_close(y, z);
     F.dense.apply_absolute(x, y);
     F.sparse.apply_absolute(x, z);
-    expect_near(y, z);
+    expect_close(y, z);
   }
 
   void expect_same_solutions(Pair &F, const std::vector<std::size_t> &set)
@@ -83,7 +83,7 @@ namespace
       const std::vector<double> rhs = F.vector();
       ASSERT_TRUE(F.dense.solve(set, rhs, shift, x));
       ASSERT_TRUE(F.sparse.solve(set, rhs, shift, y));
-      expect_near(x, y);
+      expect_close(x, y);
     }
   }
 } // namespace
@@ -169,7 +169,7 @@ TEST(SparseOperator, keeps_what_is_left_under_closed_rows_like_the_dense_one)
     F.dense.condensed_diagonal(wanted, set, 1e-9, y);
     F.dense.ComplementarityOperator::condensed_diagonal(wanted, set, 1e-9, z);
     EXPECT_EQ(y, z);
-    expect_near(y, x);
+    expect_close(y, x);
   }
 }
 

@@ -10,9 +10,7 @@
 
 #include <boost/math/interpolators/pchip.hpp>
 
-#include <unistd.h>
 
-#include <filesystem>
 #include <thread>
 
 namespace
@@ -27,27 +25,20 @@ namespace
   protected:
     Tables()
     {
-      folder = std::filesystem::temp_directory_path() / ("taut_tables_" + std::to_string(getpid()));
-      std::filesystem::create_directories(folder);
-      taut::set_data_folder(folder.string());
+      taut::set_data_folder(folder.path.string());
       write("profile.csv", "s, height, drop\n0, 1, 0\n2, 5, 10\n3, 4, 10\n10, -3, 11\n");
     }
-    ~Tables() override
-    {
-      taut::set_data_folder("");
-      std::error_code ignored;
-      std::filesystem::remove_all(folder, ignored);
-    }
+    ~Tables() override { taut::set_data_folder(""); }
 
     void write(const std::string &name, const std::string &text) const
     {
-      std::ofstream(folder / name) << text;
+      folder.write(name, text);
     }
 
-    std::filesystem::path folder;
+    const verification::Folder folder;
   };
 
-  std::string message(const std::string &text, const V variables, const double s = 0.)
+  std::string message_of_table(const std::string &text, const V variables, const double s = 0.)
   {
     return verification::error_of([&] { Expression(text, "Load/Magnitude", variables)(s, 2.); });
   }
@@ -158,22 +149,22 @@ namespace
     write("three.csv", "s, v\n0, 2\n1, 3\n2, 4\n");
     const auto has = [](const std::string &text, const std::string &part)
     { return verification::has(text, "Load/Magnitude") && verification::has(text, part); };
-    const std::string outside = message("2*table(profile.csv, height)", V::position, 130.);
+    const std::string outside = message_of_table("2*table(profile.csv, height)", V::position, 130.);
     EXPECT_PRED2(has, outside, "has no value at s = 130 m");
     EXPECT_PRED2(has, outside,
                  "file 'profile.csv' has 'height' from 0 to 10 and none at 130; the rows have to "
                  "cover what is used");
-    EXPECT_PRED2(has, message("table(profile.csv, height)", V::position, -1.), "none at -1");
-    EXPECT_PRED2(has, message("table(profile.csv, width)", V::time), "has no column 'width'");
-    EXPECT_PRED2(has, message("table(profil.csv, height)", V::time), "cannot read the file");
-    EXPECT_PRED2(has, message("table(profile.csv)", V::time), "does not name a file and a column");
-    EXPECT_PRED2(has, message("table(profile.csv, height", V::time), "never closed");
-    EXPECT_PRED2(has, message("table(profile.csv, height)", V::both), "one of s, t, as in");
-    EXPECT_PRED2(has, message("table(profile.csv, height, t)", V::position), "'t' is no word");
-    EXPECT_PRED2(has, message("table(one.csv, v)", V::time), "has 1 row; a table takes 2");
-    EXPECT_PRED2(has, message("table(three.csv, v, cubic)", V::time), "takes 4 and more");
-    EXPECT_PRED2(has, message("table(twice.csv, v)", V::time), "line 4: 's' is 1 after 1; sort");
-    EXPECT_PRED2(has, message("table(infinite.csv, v)", V::time), "line 3: 'inf'");
-    EXPECT_PRED2(has, message("profile.csv", V::time), "'table(FILE.csv, column)'");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::position, -1.), "none at -1");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, width)", V::time), "has no column 'width'");
+    EXPECT_PRED2(has, message_of_table("table(profil.csv, height)", V::time), "cannot read the file");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv)", V::time), "does not name a file and a column");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height", V::time), "never closed");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::both), "one of s, t, as in");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height, t)", V::position), "'t' is no word");
+    EXPECT_PRED2(has, message_of_table("table(one.csv, v)", V::time), "has 1 row; a table takes 2");
+    EXPECT_PRED2(has, message_of_table("table(three.csv, v, cubic)", V::time), "takes 4 and more");
+    EXPECT_PRED2(has, message_of_table("table(twice.csv, v)", V::time), "line 4: 's' is 1 after 1; sort");
+    EXPECT_PRED2(has, message_of_table("table(infinite.csv, v)", V::time), "line 3: 'inf'");
+    EXPECT_PRED2(has, message_of_table("profile.csv", V::time), "'table(FILE.csv, column)'");
   }
 } // namespace

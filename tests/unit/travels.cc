@@ -41,7 +41,7 @@ namespace
 
   TEST(Travels, ways_are_integrals)
   {
-    const double end = 12., pi = std::acos(-1.);
+    const double end = 12.;
     EXPECT_LT(error(*travel("20 + 0*t", end), end, [](double t) { return 20. * t; }), 1e-12);
     EXPECT_LT(error(*travel("250 + 0*t", end, 3.6), end, [](double t) { return 250. / 3.6 * t; }),
               1e-12);

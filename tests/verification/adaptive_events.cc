@@ -9,7 +9,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   Overrides adaptive(const std::string &tolerance)
   {

@@ -107,7 +107,7 @@ namespace
 
 TEST(Frequencies, tensioned_beam_converges_with_order_4)
 {
-  const double T = 2000., EI = 195., m = 1.35, L = 6., pi = std::acos(-1.);
+  const double T = 2000., EI = 195., m = 1.35, L = 6.;
   check_orders(
       "tensioned beam", {.75, .5, .375, .25, .1875},
       [&](const double h)
@@ -126,7 +126,7 @@ TEST(Frequencies, tensioned_beam_converges_with_order_4)
 
 TEST(Frequencies, string_and_bar_converge_with_twice_their_degree)
 {
-  const double L = 6., pi = std::acos(-1.), m = 1.35, stiffness = 2000.;
+  const double L = 6., m = 1.35, stiffness = 2000.;
   for (const bool bar : {false, true})
     for (const unsigned int degree : {1, 2})
     {
@@ -168,7 +168,7 @@ TEST(Frequencies, point_mass_on_a_string)
 // m L/M with z = omega L/c, one root in each (n pi, n pi + pi/2).
 TEST(Frequencies, point_mass_at_the_free_end_of_a_string)
 {
-  const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m), pi = std::acos(-1.);
+  const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m);
   const std::vector<double> w = string_with_a_mass(T, {0.}, L, mass);
   for (int n = 0; n < 2; ++n)
   {
@@ -184,7 +184,7 @@ TEST(Frequencies, point_mass_at_the_free_end_of_a_string)
 // frequency sqrt(omega^2 - d^2).
 TEST(Damping, first_mode_decays_as_rayleigh_damping_says)
 {
-  const double T = 60., EI = 20., m = 1.5, L = 4., alpha = .3, beta = .004, pi = std::acos(-1.);
+  const double T = 60., EI = 20., m = 1.5, L = 4., alpha = .3, beta = .004;
   const double q = pi / L, omega = std::sqrt((T * q * q + EI * q * q * q * q) / m),
                d = .5 * (alpha + beta * omega * omega), damped = std::sqrt(omega * omega - d * d);
   const std::vector<double> errors =

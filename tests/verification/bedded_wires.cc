@@ -8,7 +8,6 @@
 
 #include <taut/output/spans.h>
 
-#include <array>
 #include <complex>
 
 using namespace verification;

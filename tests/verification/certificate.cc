@@ -165,7 +165,7 @@ TEST(Certificate, statics_measure_their_balance)
   const taut::Constraints constraints = taut::scene_constraints(alone, structure);
   taut::SolverParameters parameters;
   const taut::Residuals certificate =
-      taut::static_equilibrium(structure, constraints, parameters, 0.).certificate;
+      taut::static_equilibrium(structure, constraints, parameters, 0.).residuals;
   EXPECT_GT(certificate.balance, 1e-18);
   EXPECT_LT(certificate.balance, 1e-14);
   parameters.contact_tolerance = 1e-30;

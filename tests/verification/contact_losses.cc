@@ -10,7 +10,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   /// A mass of 1 kg that falls from a height onto a stop.
   std::string falling_mass(const double height, const double stiffness, const double step,
@@ -36,7 +35,7 @@ Time: Step = )" +
     std::string error, log;
   };
 
-  Fall run(const std::string &text, const Overrides &overrides = {})
+  Fall fall_of(const std::string &text, const Overrides &overrides = {})
   {
     Fall fall;
     Session session(text, overrides);
@@ -86,7 +85,7 @@ TEST(ContactLosses, warn_from_one_percent_and_fail_from_ten)
                         Case{8e5, .0483, true, true, true}, Case{3e6, .0472, true, true, false}})
   {
     const double fall_time = std::sqrt(2. * c.height / g);
-    const Fall fall = run(falling_mass(c.height, c.stiffness, 1e-3,
+    const Fall fall = fall_of(falling_mass(c.height, c.stiffness, 1e-3,
                                        std::ceil(1.9e3 * fall_time) * 1e-3, "generalised-alpha"));
     std::ostringstream of_case;
     of_case << "drop of " << c.height << " m on " << c.stiffness << " N/m, generalised-alpha";
@@ -128,7 +127,7 @@ TEST(ContactLosses, warn_from_one_percent_and_fail_from_ten)
 
 TEST(ContactLosses, of_one_contact_and_gains_of_another_are_added)
 {
-  const Fall fall = run(falling_mass(.045, 4e5, 1e-3, .45, "generalised-alpha"));
+  const Fall fall = fall_of(falling_mass(.045, 4e5, 1e-3, .45, "generalised-alpha"));
   const double all = fall.taken + fall.given;
   EXPECT_GT(figure("two contacts on 4e5 N/m, taken", fall.taken, "J"), .2 * all);
   EXPECT_GT(figure("two contacts on 4e5 N/m, given", fall.given, "J"), .2 * all);
@@ -139,14 +138,14 @@ TEST(ContactLosses, of_one_contact_and_gains_of_another_are_added)
 TEST(ContactLosses, after_automatic_the_advice_helps)
 {
   const std::string text = falling_mass(.05, 5e4, 1e-3, .5, "automatic");
-  const Fall fall = run(text);
+  const Fall fall = fall_of(text);
   ASSERT_EQ(fall.warnings.size(), 1u) << fall.log;
   EXPECT_EQ(fall.error, "");
   EXPECT_TRUE(has(fall.warnings[0].message, of_fixed)) << fall.warnings[0].message;
   EXPECT_FALSE(has(fall.warnings[0].message, "'Time/Scheme'")) << fall.warnings[0].message;
   for (const Overrides &advice : {Overrides{"Time.Step=2.5e-4"}, {"Time.Step control=adaptive"}})
   {
-    const Fall better = run(text, advice);
+    const Fall better = fall_of(text, advice);
     figure("drop on 5e4 N/m, " + advice[0] + ", contact energy over its scale",
            better.summary.relative_energy);
     EXPECT_TRUE(better.warnings.empty()) << better.log;
@@ -157,10 +156,10 @@ TEST(ContactLosses, after_automatic_the_advice_helps)
 TEST(ContactLosses, after_a_scheme_by_name_the_advice_helps)
 {
   const std::string text = falling_mass(.0472, 3e6, 1e-3, .18, "generalised-alpha");
-  EXPECT_TRUE(has(run(text).error, of_scheme));
+  EXPECT_TRUE(has(fall_of(text).error, of_scheme));
   for (const Overrides &advice : {Overrides{"Time.Scheme=automatic"}, {"Time.Step=1e-5"}})
   {
-    const Fall better = run(text, advice);
+    const Fall better = fall_of(text, advice);
     EXPECT_TRUE(better.warnings.empty()) << better.log;
     EXPECT_EQ(better.error, "");
   }
@@ -181,7 +180,7 @@ Time: Step = 0.05; End = 5
 )";
   const double depth = std::sqrt(length * length - x * x),
                along = std::sqrt(2. * 1.25 * (depth - y)) * depth / length;
-  const Fall fall = run(rope);
+  const Fall fall = fall_of(rope);
   const double lacks = fall.summary.momentum / (m * along);
   figure("rope that does not rebound, momentum that it lacks over the exact one", lacks);
   EXPECT_GT(lacks, .95); // by the mean rate of its last step in flight, which is less
@@ -192,7 +191,7 @@ Time: Step = 0.05; End = 5
   EXPECT_TRUE(has(fall.warnings[0].message, "the impulse of 'rope' may be off by"))
       << fall.warnings[0].message;
 
-  const Fall swing = run(rope, {"Time.End=200"});
+  const Fall swing = fall_of(rope, {"Time.End=200"});
   EXPECT_GE(swing.summary.relative_momentum, fall.summary.relative_momentum);
   figure("rope that does not rebound, momentum that it lacks over its impulse meanwhile",
          fall.summary.relative_momentum);
@@ -202,7 +201,7 @@ Time: Step = 0.05; End = 5
 
   // A load holds the bob for 40 s, in which a mass of its group presses on a floor.
   const double busy = 40., mass = 1.;
-  const Fall late = run(rope + R"(
+  const Fall late = fall_of(rope + R"(
 Load hold: On = bob; Direction = 0, 1; Magnitude = t < 40 ? 0.178 * 1.25 : 0
 Mass pile: Position = -2.34, -9; Motions = y; Mass = 1
 Link floor: Type = stop; From = ground; To = pile; Direction = 0, 1; Gap = 0

@@ -5,7 +5,6 @@
 
 #include <taut/time/step_costs.h>
 
-#include <numeric>
 #include <regex>
 #include <thread>
 

@@ -8,11 +8,6 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <map>
-
 using namespace verification;
 
 namespace
@@ -110,7 +105,7 @@ Time: Step = 1e-3; End = 0; Scheme = backward Euler
 // / 4) / T'.
 TEST(DropperLengths, of_a_line_as_built_stay_where_the_tension_changes)
 {
-  const double g = 9.81, k = 1e5, N = 20. * g,
+  const double k = 1e5, N = 20. * g,
                length = 1.2 - (.8 * g * 200. + 10. * N) / 12000. - N / k,
                kept = (1.2 - length - .8 * g * 200. / 11000. + g * 200. / 10000.) /
                       (1. / k + 10. / 11000. + 10. / 10000.);
@@ -177,7 +172,7 @@ TEST(DropperLengths, of_results_stay_where_a_dropper_breaks_or_moves)
 // equation for each dropper: its length, or the height of the contact wire.
 TEST(DropperLengths, given_beside_found_ones_are_those_of_strings)
 {
-  constexpr double g = 9.81, L = 50., k = 1e5, T[] = {15000., 9000.}, m[] = {1.1, .9}, high = 1.4;
+  constexpr double L = 50., k = 1e5, T[] = {15000., 9000.}, m[] = {1.1, .9}, high = 1.4;
   const std::vector<double> x = {4., 11., 19., 25., 32., 41., 47.};
   const std::size_t n = x.size();
   const auto sag = [&](const int wire, const double at)
@@ -286,8 +281,8 @@ TEST(DropperLengths, of_results_in_folders_without_a_letter)
   Session built(line, at_rest + Overrides{"Catenary/Droppers/Stiffness=2e4"});
   const auto with = [](const std::string &folder)
   { return Overrides{"Catenary/Droppers/Lengths=" + folder}; };
-  const fs::path folder =
-      fs::temp_directory_path() / ("taut_dropper_lengths_" + std::to_string(getpid()));
+  const Folder scratch;
+  const fs::path &folder = scratch.path;
   fs::create_directories(folder / "scenes" / "2024");
   fs::copy(line, folder / "scenes" / "line.prm");
   forces_of(built);
@@ -308,5 +303,4 @@ TEST(DropperLengths, of_results_in_folders_without_a_letter)
   const std::string column = "cut length [m]";
   EXPECT_EQ(read_table((folder / "droppers.csv").string()).at(column),
             read_table(built.folder() + "/droppers.csv").at(column));
-  fs::remove_all(folder);
 }

@@ -49,7 +49,7 @@ namespace
   };
 
   /// 20 s of a careless pendulum.
-  Outcome swing(const double part, const bool has_bystander,
+  Outcome outcome_of_swing(const double part, const bool has_bystander,
                 taut::StepperOptions options = taut::StepperOptions())
   {
     taut::System system;
@@ -79,7 +79,7 @@ namespace
 
 TEST(EnergyAccount, energy_from_nowhere_is_an_error)
 {
-  const Outcome right = swing(1., false), wrong = swing(.3, false);
+  const Outcome right = outcome_of_swing(1., false), wrong = outcome_of_swing(.3, false);
   EXPECT_EQ(right.error, "");
   EXPECT_LE(right.summary.relative_motion_energy, 1e-7);
   EXPECT_TRUE(has(wrong.error, "bodies that move by large amounts gained")) << wrong.error;
@@ -92,7 +92,7 @@ TEST(EnergyAccount, a_fast_heavy_body_elsewhere_hides_nothing)
 {
   for (const double part : {1., .95, .3})
   {
-    const Outcome alone = swing(part, false), beside = swing(part, true);
+    const Outcome alone = outcome_of_swing(part, false), beside = outcome_of_swing(part, true);
     EXPECT_NEAR(beside.summary.relative_motion_energy, alone.summary.relative_motion_energy,
                 1e-6 * alone.summary.relative_motion_energy + 1e-7)
         << part;
@@ -120,7 +120,7 @@ TEST(EnergyAccount, the_advice_is_what_the_run_leaves_to_do)
       {fixed, of_fixed}, {adaptive, of_adaptive}, {named, of_scheme}};
   for (const auto &[options, advice] : runs)
   {
-    const Outcome found = swing(.3, false, options);
+    const Outcome found = outcome_of_swing(.3, false, options);
     ASSERT_FALSE(found.warnings.empty()) << advice;
     for (const std::string &text : {found.error, found.warnings.front().message})
     {

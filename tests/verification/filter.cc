@@ -12,7 +12,6 @@ using namespace verification;
 
 namespace
 {
-  const double pi = std::acos(-1.);
 
   /// Complex gain for a sine of frequency f [Hz], from whole periods in the middle of a record.
   std::complex<double> gain(const double f, const double step, const double frequency)

@@ -6,12 +6,7 @@
 
 #include <taut/simulation/parameter_file.h>
 
-#include <unistd.h>
-
-#include <filesystem>
-
 using namespace verification;
-namespace fs = std::filesystem;
 
 namespace
 {
@@ -19,22 +14,15 @@ namespace
   {
   protected:
     IncludedFiles()
-        : folder(fs::temp_directory_path() / ("taut_included_" + std::to_string(getpid())))
     {
-      fs::create_directories(folder);
       write("inner.prm", "set A = inner\nset B = inner\nset C = inner\n");
       write("outer.prm", "include inner.prm\nset B = outer\n");
       write("other.prm", "set A = other\n");
     }
-    ~IncludedFiles() override
-    {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-    }
 
     void write(const std::string &name, const std::string &text) const
     {
-      std::ofstream(folder / name) << text;
+      scratch.write(name, text);
     }
 
     /// "A = 1; B = 2", or the error.
@@ -82,7 +70,8 @@ namespace
       return 0.;
     }
 
-    const fs::path folder;
+    const Folder scratch;
+    const fs::path folder = scratch.path;
   };
 
   TEST_F(IncludedFiles, entries_are_set_again_after_the_include)

@@ -4,8 +4,6 @@
 #include "interface_problem.h"
 #include "scene_tests.h"
 
-#include <limits>
-
 using namespace verification;
 
 namespace

@@ -2,17 +2,11 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
+#include "common.h"
 #include "complementarity/solver.h"
 #include "interface/schur_complement.h"
 #include "model/scene_constraints.h"
 #include "partition/make_partition.h"
-
-#include <algorithm>
-#include <ctime>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace verification
 {

@@ -11,7 +11,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double pi = 3.14159265358979323846;
 
   /// @p n steps, of which each ends where it has to.
   void advance(taut::Stepper &stepper, const double step, const int n)

@@ -8,9 +8,6 @@
 #include "study/sweep.h"
 #include <taut/output/spans.h>
 
-#include <nlohmann/json.hpp>
-
-#include <filesystem>
 #include <regex>
 
 using namespace verification;
@@ -29,29 +26,6 @@ Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 20;
 Time: Step = 2e-3; End = 1.2; Scheme = Newmark
 Statistics: Window = 20, 65
 )";
-
-  struct Said
-  {
-    nlohmann::json json;
-    std::string log;
-    std::map<std::string, std::vector<double>> sliding;
-  };
-
-  Said say(const std::string &scene, const Overrides &overrides = {})
-  {
-    Session session(scene, overrides);
-    session.run();
-    Said said;
-    std::ifstream(session.folder() + "/statistics.json") >> said.json;
-    said.log = session.log();
-    said.sliding = read_table(session.folder() + "/sliding.csv");
-    return said;
-  }
-
-  double value(const nlohmann::json &quantity)
-  {
-    return quantity.at("value").get<double>();
-  }
 } // namespace
 
 TEST(LineFigures, constants_of_lines_are_those_of_the_log)
@@ -91,13 +65,8 @@ TEST(LineFigures, columns_of_sweeps_are_the_statistics)
 {
   Session session(line);
   session.run();
-  nlohmann::json said;
-  std::ifstream(session.folder() + "/statistics.json") >> said;
-  const std::string file = session.folder() + "/scene.prm";
-  {
-    std::ofstream text(file);
-    session.parameters().print(text);
-  }
+  const nlohmann::json said = session.statistics();
+  const std::string file = session.write_scene();
   std::ostringstream log;
   taut::Sweep sweep(file,
                     {"Sweep/Parameters=step", "Sweep/Parameter step/Entries=Time/Step",
@@ -170,7 +139,6 @@ TEST(LineFigures, sags_of_spans_are_those_of_strings)
                        &messenger = said.json.at("spans").at("messenger");
   ASSERT_EQ(contact.size(), 3u);
   ASSERT_EQ(messenger.size(), 3u);
-  const double g = 9.81;
   for (int i = 0; i < 3; ++i)
   {
     EXPECT_NEAR(value(messenger[i].at("from")), 40. * i, 1e-9);
@@ -313,8 +281,7 @@ TEST(LineFigures, sums_of_contacts_are_those_of_the_table)
              "frequency = 0\n";
   Session session(two, {"Output/Interval=0"});
   session.run();
-  nlohmann::json said;
-  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const nlohmann::json said = session.statistics();
   const auto sliding = read_table(session.folder() + "/sliding.csv");
   const auto column = [&](const std::string &name) { return sliding.at(name); };
   const std::vector<double> place = column("pantograph position [m]"),
@@ -345,11 +312,7 @@ TEST(LineFigures, sums_of_contacts_are_those_of_the_table)
                                  "20.00 to 65.00 m"))
       << session.log();
 
-  const std::string file = session.folder() + "/scene.prm";
-  {
-    std::ofstream text(file);
-    session.parameters().print(text);
-  }
+  const std::string file = session.write_scene();
   taut::Parameters parameters;
   parameters.read(file, {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=both",
                          "Study/Quantity mean/Quantity=mean", "Study/Quantity motion/Of=both",
@@ -396,7 +359,7 @@ TEST(LineFigures, reactions_at_rest_are_those_of_strings)
       say(line + "Pantograph pantograph: -\n"
                  "Catenary: Pantographs =; Number of spans = 3; Encumbrance = 1.2, 1.4, 1.4, 1.2\n"
                  "Time: End = 2e-3\nStatistics: Window =\n");
-  const double g = 9.81, messenger_end = .8 * 20. * g + 16.25 * g - 12000. * .2 / 40.,
+  const double messenger_end = .8 * 20. * g + 16.25 * g - 12000. * .2 / 40.,
                messenger_mast = .8 * 40. * g + (18.75 + 20.) * g + 12000. * .2 / 40.;
   int n = 0;
   for (const auto &[name, support] : said.json.at("supports").items())
@@ -420,8 +383,7 @@ TEST(LineFigures, reactions_are_those_of_the_table)
 {
   Session session(line, {"Output/Interval=0", "Output/Link interval=0"});
   session.run();
-  nlohmann::json said;
-  std::ifstream(session.folder() + "/statistics.json") >> said;
+  const nlohmann::json said = session.statistics();
   const auto supports = read_table(session.folder() + "/supports.csv"),
              sliding = read_table(session.folder() + "/sliding.csv");
   const std::vector<double> &place = sliding.at("pantograph position [m]");
@@ -453,13 +415,8 @@ TEST(LineFigures, reactions_are_quantities_of_studies)
 {
   Session session(line, {"Output/Link interval=0"});
   session.run();
-  nlohmann::json said;
-  std::ifstream(session.folder() + "/statistics.json") >> said;
-  const std::string name = "messenger at masts", file = session.folder() + "/scene.prm";
-  {
-    std::ofstream text(file);
-    session.parameters().print(text);
-  }
+  const nlohmann::json said = session.statistics();
+  const std::string name = "messenger at masts", file = session.write_scene();
   taut::Parameters parameters;
   parameters.read(file,
                   {"Study/Quantities=mean, motion", "Study/Quantity mean/Of=" + name,

@@ -13,7 +13,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   /// A line of strings, one inner span; droppers at p, contact wire at -sag below its supports.
   struct StringLine

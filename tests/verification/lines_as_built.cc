@@ -8,8 +8,6 @@
 #include "study/elasticity.h"
 #include <taut/output/spans.h>
 
-#include <filesystem>
-
 using namespace verification;
 
 namespace
@@ -29,23 +27,13 @@ namespace
     return forces;
   }
 
-  /// A file in a folder of its own, which is removed again.
-  class File
+  /// A file in a folder of its own.
+  struct File
   {
-  public:
-    File(const std::string &name, const std::string &text)
-    {
-      std::string pattern = (std::filesystem::temp_directory_path() / "taut-line-XXXXXX").string();
-      folder = mkdtemp(pattern.data());
-      path = folder + "/" + name;
-      std::ofstream(path, std::ios::binary) << text;
-    }
-    ~File() { std::filesystem::remove_all(folder); }
+    File(const std::string &name, const std::string &text) : path(folder.write(name, text)) {}
 
-    std::string path;
-
-  private:
-    std::string folder;
+    const Folder folder;
+    const std::string path;
   };
 
   std::string repeated(const std::string &text, const int n, const std::string &separator)
@@ -57,7 +45,7 @@ namespace
   }
 
   /// A line of strings without droppers and pantographs: one span of 40 m unless more is said.
-  const std::string strings = R"(Generator = catenary
+  const std::string bare_strings = R"(Generator = catenary
 Start = equilibrium
 Catenary: Number of spans = 1; Span length = 40; Pantographs =
 Catenary/Contact wire: Model = string; Mass per length = 1; Tension = 10000; Element size = 1
@@ -66,8 +54,6 @@ Catenary/Supports: Arm mass = 0
 Catenary/Droppers: Positions =
 Time: Step = 1e-3; End = 0; Scheme = backward Euler
 )";
-
-  constexpr double g = 9.81;
 
   /// Shape of a string of length L under its weight w [N/m] and forces, from its chord.
   double sag(const double x, const double L, const double w, const double T,
@@ -119,7 +105,7 @@ TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
   const auto error = [](const std::string &text)
   {
     const File file("line.csv", text);
-    return error_of([&] { Session(strings, {"Catenary/Line=" + file.path}); });
+    return error_of([&] { Session(bare_strings, {"Catenary/Line=" + file.path}); });
   };
   EXPECT_EQ(error("span,droppers\n40,10 20\n,\n"), "");
   EXPECT_TRUE(has(error("span,dropers\n40,10 20\n,\n"), "did you mean 'droppers'?"));
@@ -131,7 +117,7 @@ TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
   EXPECT_TRUE(has(error("span,droppers\n40,10 20\n40,\n"), "line 3: the last mast has no span"));
   EXPECT_TRUE(has(error("span,droppers\n"), "has no rows"));
   EXPECT_TRUE(
-      has(error_of([] { Session(strings, {"Catenary/Line=none.csv"}); }), "cannot read the file"));
+      has(error_of([] { Session(bare_strings, {"Catenary/Line=none.csv"}); }), "cannot read the file"));
 }
 
 namespace
@@ -150,24 +136,24 @@ TEST(LinesAsBuilt, values_of_another_unit_have_warnings_as_they_were_read)
 {
   const std::string unit = "Lengths are read in m",
                     droppers = "Catenary/Droppers: Positions = 10, 20, 30; Lengths = ";
-  EXPECT_FALSE(has(checked(strings), unit));
-  EXPECT_FALSE(has(checked(strings + "Catenary: Encumbrance = 0.1, 10\n"
+  EXPECT_FALSE(has(checked(bare_strings), unit));
+  EXPECT_FALSE(has(checked(bare_strings + "Catenary: Encumbrance = 0.1, 10\n"
                                      "Catenary/Contact wire: Stagger = 2\n"),
                    unit));
-  EXPECT_TRUE(has(checked(strings + "Catenary: Encumbrance = 1.4, 1400; Begin = 100\n"),
+  EXPECT_TRUE(has(checked(bare_strings + "Catenary: Encumbrance = 1.4, 1400; Begin = 100\n"),
                   "Warning: Catenary: a system height (encumbrance) of 1400 m at x = 140 m is not "
                   "between 0.1 and 10 m. Lengths are read in m"));
-  EXPECT_TRUE(has(checked(strings + "Catenary: Encumbrance = 0.012\n"),
+  EXPECT_TRUE(has(checked(bare_strings + "Catenary: Encumbrance = 0.012\n"),
                   "a system height (encumbrance) of 0.012 m at x = 0 m"));
-  EXPECT_TRUE(has(checked(strings + "Catenary/Contact wire: Stagger = -30\n"),
+  EXPECT_TRUE(has(checked(bare_strings + "Catenary/Contact wire: Stagger = -30\n"),
                   "a stagger of -30 m at x = 0 m is above 2 m"));
-  EXPECT_TRUE(has(checked(strings + "Catenary/Messenger wire: Stagger = 0.2, 2.1\n"),
+  EXPECT_TRUE(has(checked(bare_strings + "Catenary/Messenger wire: Stagger = 0.2, 2.1\n"),
                   "a stagger of 2.1 m at x = 40 m is above 2 m"));
-  EXPECT_TRUE(has(checked(strings + droppers + "0.9, 0.8, 900\n"),
+  EXPECT_TRUE(has(checked(bare_strings + droppers + "0.9, 0.8, 900\n"),
                   "a dropper of 900 m at x = 30 m is longer than the system height of 1.2 m"));
   const File table("line.csv",
                    "span,droppers,lengths,encumbrance\n40,10 20,0.9 1.31,1.1\n,,,1.3\n");
-  const std::string log = checked(strings, {"Catenary/Line=" + table.path});
+  const std::string log = checked(bare_strings, {"Catenary/Line=" + table.path});
   EXPECT_TRUE(has(log, "a dropper of 1.31 m at x = 20 m is longer than the system height of 1.3 m"))
       << log;
 }
@@ -175,7 +161,7 @@ TEST(LinesAsBuilt, values_of_another_unit_have_warnings_as_they_were_read)
 // Expected of two strings at rest: how far apart they are, less the length.
 TEST(LinesAsBuilt, wires_whose_droppers_are_all_slack_have_a_warning)
 {
-  const std::string tight = strings + "Catenary/Contact wire: Tension = 30000\n",
+  const std::string tight = bare_strings + "Catenary/Contact wire: Tension = 30000\n",
                     droppers = "Catenary/Droppers: Positions = 10, 20, 30; Lengths = ";
   const double gap = 1.18 - (1.2 - sag(20., 40., .8 * g, 12000.) + sag(20., 40., g, 30000.));
   const std::string log = checked(tight + droppers + "1.2, 1.18, 1.2\n");
@@ -187,7 +173,7 @@ TEST(LinesAsBuilt, wires_whose_droppers_are_all_slack_have_a_warning)
   EXPECT_FALSE(has(checked(tight + droppers + "1.2, 0.9, 1.2\n"), "are slack at the start"));
   // Of two contact wires one hangs on its dropper no more.
   const std::string both =
-      checked(strings + "Catenary: Contact wires = 2; Twin droppers = in turn\n" + droppers +
+      checked(bare_strings + "Catenary: Contact wires = 2; Twin droppers = in turn\n" + droppers +
               "0.9, 1.3, 0.9\n");
   EXPECT_TRUE(has(both, "the only dropper of wire 'twin contact' is slack")) << both;
 }
@@ -196,10 +182,10 @@ TEST(LinesAsBuilt, entries_beside_a_table_are_said_not_to_be_used)
 {
   const File table("line.csv", "span,droppers\n40,10 20\n50,20\n,\n");
   const std::string log = checked(
-      strings + "Catenary/Droppers: Positions = 7, 8\nCatenary/Contact wire: Stagger = 0.2\n",
+      bare_strings + "Catenary/Droppers: Positions = 7, 8\nCatenary/Contact wire: Stagger = 0.2\n",
       {"Catenary/Line=" + table.path});
   const std::string beside = " (beside Line = " + table.path + ")";
-  EXPECT_FALSE(has(checked(strings + "Catenary: Point masses = clamp\nCatenary/Point mass clamp: "
+  EXPECT_FALSE(has(checked(bare_strings + "Catenary: Point masses = clamp\nCatenary/Point mass clamp: "
                                      "Positions = 7; Mass = 1\n",
                            {"Catenary/Line=" + table.path}),
                    "not used: Catenary/Point mass"));
@@ -207,16 +193,16 @@ TEST(LinesAsBuilt, entries_beside_a_table_are_said_not_to_be_used)
        {"Catenary/Span length = 40", "Catenary/Number of spans = 1",
         "Catenary/Droppers/Positions = 7, 8", "Catenary/Contact wire/Stagger = 0.2"})
     EXPECT_TRUE(has(log, "  not used: " + entry + beside)) << entry << '\n' << log;
-  EXPECT_TRUE(has(checked(strings, {"Catenary/Span lengths=40, 50"}),
+  EXPECT_TRUE(has(checked(bare_strings, {"Catenary/Span lengths=40, 50"}),
                   "not used: Catenary/Span length = 40 (beside Span lengths = 40, 50)"));
-  EXPECT_FALSE(has(checked(strings), "not used: "));
+  EXPECT_FALSE(has(checked(bare_strings), "not used: "));
 }
 
 // One value is for the inner masts; where each mast has its own, ends have none.
 TEST(LinesAsBuilt, stitch_wires_and_mid_points_at_ends_are_refused)
 {
   const auto error = [](const Overrides &overrides)
-  { return error_of([&] { Session(strings, overrides); }); };
+  { return error_of([&] { Session(bare_strings, overrides); }); };
   const std::string spans = "Catenary/Span lengths=40, 50";
   EXPECT_TRUE(has(error({spans, "Catenary/Stitch lengths=12, 16, 0"}),
                   "12 m at the end of the line at x = 0 m, where there is none; give 0 there"));
@@ -236,7 +222,7 @@ TEST(LinesAsBuilt, droppers_hold_the_contact_wire_at_the_heights_of_the_masts)
   const std::vector<double> spans = {40., 55., 48., 60.}, heights = {0., 0., 0.1, 0.3, 0.3},
                             encumbrances = {1.2, 1.3, 1.1, 1.2, 1.4};
   double mast = 0.;
-  run_scene(strings,
+  run_scene(bare_strings,
             {"Catenary/Span lengths=40, 55, 48, 60", "Catenary/Heights=0, 0, 0.1, 0.3, 0.3",
              "Catenary/Encumbrance=1.2, 1.3, 1.1, 1.2, 1.4",
              "Catenary/Droppers/Positions are=relative",
@@ -274,7 +260,7 @@ TEST(LinesAsBuilt, droppers_hold_the_contact_wire_at_the_heights_of_the_masts)
 TEST(LinesAsBuilt, point_masses_hang_at_their_places)
 {
   const double T = 10000., m = 3.;
-  run_scene(strings + "Catenary: Point masses = insulator; Begin = 100\n"
+  run_scene(bare_strings + "Catenary: Point masses = insulator; Begin = 100\n"
                       "Catenary/Point mass insulator: Positions = 115; Mass = 3\n",
             {},
             [&](const taut::StepView &view)
@@ -290,7 +276,7 @@ TEST(LinesAsBuilt, stitch_wires_take_their_tension_from_the_messenger)
   // droppers at 45 and 55 m, which carry the contact wire alone.
   const double T = 12000., S = 3000., w = .8 * g, own = .3 * g;
   int n_seen = 0;
-  run_scene(strings +
+  run_scene(bare_strings +
                 "Catenary: Span lengths = 50, 50; Stitch lengths = 16\n"
                 "Catenary/Stitch wires: Model = string; Mass per length = 0.3; Tension = 3000\n"
                 "Catenary/Droppers: Positions = 45; 5\n",
@@ -323,7 +309,7 @@ TEST(LinesAsBuilt, a_hinged_arm_moves_as_a_stiff_beam_on_a_hinge)
   // The contact wire of two spans swings down from the start under its weight, with an arm at its
   // middle: as a lever, and as a beam of 1.2 m with a third of a metre to each element.
   const std::string start = "Start = undeformed\nTime: End = 0.4; Scheme = generalised-alpha\n";
-  const std::string lever = strings + start +
+  const std::string lever = bare_strings + start +
                             "Catenary: Number of spans = 2\n"
                             "Catenary/Supports: Arm kind = hinged; Arm mass = 6\n";
   const std::string beam = start + R"(Generator = network
@@ -345,7 +331,7 @@ Time: Step = 1e-3
 
 TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
 {
-  Session session(strings,
+  Session session(bare_strings,
                   {"Catenary/Number of spans=3", "Catenary/Supports/Messenger stiffness=4e5",
                    "Catenary/Supports/Messenger damping=300"});
   const taut::Scene scene = session.parameters().scene();
@@ -357,7 +343,7 @@ TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
   EXPECT_EQ(found->damping, 300.);
   EXPECT_TRUE(has(error_of(
                       [] {
-                        Session(strings, {"Catenary/Number of spans=3",
+                        Session(bare_strings, {"Catenary/Number of spans=3",
                                           "Catenary/Supports/Messenger damping=300"});
                       }),
                   "a rigid support has none"));
@@ -369,7 +355,7 @@ TEST(LinesAsBuilt, bump_stops_and_lift_of_a_pantograph_act_as_their_formulas)
   // of 5 kN/m is stopped at 30 mm by 50 kN/m.
   const double force = 300. + 30., on_head = 20.;
   int n_seen = 0;
-  run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
+  run_scene(bare_strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
 Catenary/Supports: Messenger stiffness = rigid
 Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 300; Start = 20;
   Speed = 180; Lift = 0.008, 0.012; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0
@@ -398,7 +384,7 @@ TEST(LinesAsBuilt, a_bump_stop_follows_its_table)
   for (const double force : {330., 1200.})
   {
     int n_seen = 0;
-    run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
+    run_scene(bare_strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
 Pantograph pantograph: Masses = 7, 15, 4; Stiffnesses = 5000, 1e6, 0; Dampings = 10, 90, 0; Start = 20;
   Speed = 0; Bump stop gaps = 0.03, 0, 0; Static force = )" +
                   number(force) + "\nStatistics: Window =\n",
@@ -429,7 +415,7 @@ TEST(LinesAsBuilt, the_base_of_a_pantograph_is_a_roof_that_moves)
   const auto heights = [](const std::string &more)
   {
     std::vector<double> result;
-    run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 3
+    run_scene(bare_strings + R"(Catenary: Pantographs = pantograph; Number of spans = 3
 Catenary/Supports: Messenger stiffness = rigid
 Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 500; Dampings = 10, 90;
   Start = 20; Speed = 72; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0; )" +
@@ -440,13 +426,6 @@ Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 500; Dampings = 10, 9
                 for (const std::size_t mass : {0, 1})
                   result.push_back(displacement(view, point_of_mass(view, mass)));
               });
-    return result;
-  };
-  const auto largest_difference = [](const std::vector<double> &a, const std::vector<double> &b)
-  {
-    double result = a.size() == b.size() ? 0. : 1e300;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      raise(result, a[i] - b[i]);
     return result;
   };
   const std::vector<double> still = heights("Static force = 100"),
@@ -556,7 +535,7 @@ TEST(Elasticity, at_midspan_follows_the_rule_of_thumb)
 TEST(LinesAsBuilt, the_table_of_droppers_has_what_a_fitter_needs)
 {
   // The contact wire hangs between droppers as a chain of parabolas at one height.
-  Session session(strings, {"Catenary/Span lengths=40, 50",
+  Session session(bare_strings, {"Catenary/Span lengths=40, 50",
                             "Catenary/Droppers/Positions=10, 20, 30; 10, 20, 30, 40"});
   session.run();
   const std::string path = session.folder() + "/droppers.csv";
@@ -582,7 +561,7 @@ TEST(LinesAsBuilt, the_table_of_droppers_has_what_a_fitter_needs)
 
 namespace
 {
-  const std::string twin = strings + R"(Catenary: Contact wires = 2; Pantographs = pantograph
+  const std::string twin = bare_strings + R"(Catenary: Contact wires = 2; Pantographs = pantograph
 Catenary/Droppers: Positions = 10, 20, 30
 Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 200; Start = 25; Speed = 36
 Statistics: Window =
@@ -637,7 +616,7 @@ TEST(LinesAsBuilt, two_strips_on_a_head_that_pitches_share_as_its_equilibrium_sa
   // The head rises by y and pitches by r: strips at y -+ r d / 2 touch with a stiffness.
   const double T = 10000., L = 40., d = 2., k = 4e3, contact = 1e5, force = 150., x = 9.;
   int n_seen = 0;
-  run_scene(strings + R"(Gravity = 0, 0
+  run_scene(bare_strings + R"(Gravity = 0, 0
 Catenary: Pantographs = pantograph
 Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 150; Start = 9; Speed = 0;
   Strip distance = 2; Head inertia = 0.5; Pitch stiffness = 4000; Contact stiffness = 1e5

@@ -5,12 +5,7 @@
 
 #include "study/sweep.h"
 
-#include <unistd.h>
-
-#include <filesystem>
-
 using namespace verification;
-namespace fs = std::filesystem;
 
 namespace
 {
@@ -36,24 +31,17 @@ Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
   {
   protected:
     MeasuredData()
-        : folder(fs::temp_directory_path() / ("taut_measured_" + std::to_string(getpid())))
     {
-      fs::create_directories(folder / "data");
       write("data/profile.csv", "s, height\n0, 0\n4, 0.004\n10, 0.001\n");
       write("force.csv", "t; F\n0; 60\n1; 70,5\n2; 60\n");
       write("scene.prm", scene("table(data/profile.csv, height)", "table(force.csv, F)"));
       write("formulas.prm",
             scene("if(s < 4, 0.001*s, 0.006 - 0.0005*s)", "if(t < 1, 60 + 10.5*t, 81 - 10.5*t)"));
     }
-    ~MeasuredData() override
-    {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-    }
 
     void write(const std::string &name, const std::string &text) const
     {
-      std::ofstream(folder / name) << text;
+      scratch.write(name, text);
     }
 
     void append_sweep(const std::string &entry, const std::string &values) const
@@ -87,7 +75,8 @@ Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
       return file_text((folder / results / "sliding.csv").string());
     }
 
-    const fs::path folder;
+    const Folder scratch;
+    const fs::path folder = scratch.path;
   };
 
   TEST_F(MeasuredData, tables_are_formulas)

@@ -8,7 +8,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   /// Two spans of 50 m whose contact wire hangs on the ropes of the mid-point alone, 20 m apart.
   const std::string line = R"(Generator = catenary

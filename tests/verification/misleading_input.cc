@@ -9,8 +9,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <filesystem>
-
 using namespace verification;
 
 namespace

@@ -3,25 +3,13 @@
 // displacements, speeds and steps of the scenes, each compared by hand.
 #include "scene_tests.h"
 
-#include <nlohmann/json.hpp>
-
 using namespace verification;
 
 namespace
 {
-  struct Said
-  {
-    nlohmann::json warnings;
-    std::string log;
-  };
-
   Said run(const std::string &file, const Overrides &overrides, const Callback &callback = {})
   {
-    Session session(file, overrides + Overrides{"Output.Field interval=0"});
-    session.run(callback);
-    nlohmann::json all;
-    std::ifstream(session.folder() + "/statistics.json") >> all;
-    return {all.at("warnings"), session.log()};
+    return say(file, overrides + Overrides{"Output.Field interval=0"}, callback);
   }
 
   const std::string line = scene_file("en50318_2002_250"),
@@ -31,7 +19,7 @@ namespace
   nlohmann::json find(const Said &said, const std::string &kind)
   {
     nlohmann::json found;
-    for (const auto &warning : said.warnings)
+    for (const auto &warning : said.json.at("warnings"))
       if (warning.at("kind") == kind)
       {
         EXPECT_TRUE(found.is_null()) << "twice " << kind;
@@ -51,7 +39,7 @@ namespace
 TEST(ModelLimits, nothing_is_said_of_the_reference_line)
 {
   const Said said = run(line, {"Time.End=0.5", "Statistics.Window="});
-  EXPECT_TRUE(said.warnings.empty()) << said.warnings;
+  EXPECT_TRUE(said.json.at("warnings").empty()) << said.json.at("warnings");
   EXPECT_FALSE(has(said.log, "Warning"));
 }
 

@@ -8,11 +8,6 @@
 #include "study/sweep.h"
 #include <taut/base/registry.h>
 
-#include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <fstream>
-
 using namespace verification;
 
 namespace
@@ -41,33 +36,21 @@ Time: Step = 1e-2; End = 0.2
 Output: Observers = speed
 )";
 
-  /// The scene as a parameter file in the folder of its results.
-  std::string write_file_of(Session &session)
-  {
-    std::filesystem::create_directories(session.folder());
-    const std::string path = session.folder() + "/scene.prm";
-    std::ofstream file(path);
-    session.parameters().print(file);
-    return path;
-  }
 } // namespace
 
 TEST(ObserverQuantities, are_in_the_statistics)
 {
-  Session session(scene, {});
-  session.run();
-  nlohmann::json said;
-  std::ifstream(session.folder() + "/statistics.json") >> said;
-  EXPECT_NEAR(said["observers"]["load"]["speed"]["value"].get<double>(), .3, 1e-12);
-  EXPECT_EQ(said["observers"]["load"]["speed"]["unit"], "m/s");
-  EXPECT_NEAR(said["observers"]["load"]["twice the speed"]["value"].get<double>(), .6, 1e-12);
+  const nlohmann::json load = say(scene).json["observers"]["load"];
+  EXPECT_NEAR(value(load, "speed"), .3, 1e-12);
+  EXPECT_EQ(load["speed"]["unit"], "m/s");
+  EXPECT_NEAR(value(load, "twice the speed"), .6, 1e-12);
 }
 
 TEST(ObserverQuantities, are_quantities_of_studies)
 {
   Session session(scene, {});
   taut::Parameters parameters;
-  const std::string file = write_file_of(session);
+  const std::string file = session.write_scene();
   parameters.read(file, {"Study/Quantities=speed", "Study/Quantity speed/Of=load",
                          "Study/Quantity speed/Quantity=twice the speed"});
   parameters.write_nothing();
@@ -83,7 +66,7 @@ TEST(ObserverQuantities, are_quantities_of_studies)
 TEST(ObserverQuantities, are_columns_of_sweeps)
 {
   Session session(scene, {});
-  const std::string file = write_file_of(session);
+  const std::string file = session.write_scene();
   std::ostringstream log;
   taut::Sweep sweep(file,
                     {"Sweep/Parameters=mass", "Sweep/Parameter mass/Entries=Network/Mass load/Mass",

@@ -10,13 +10,10 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <array>
-
 using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
   const taut::Coordinates up = {0., 1.}, aside = {0., 0., 1.};
 
   /// Force of a support that is named [N].

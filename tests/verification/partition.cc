@@ -3,6 +3,8 @@
 // Source: the uncut run; counts of nodes.
 #include "scene_tests.h"
 
+#include "partition/make_partition.h"
+
 using namespace verification;
 
 namespace

@@ -6,8 +6,6 @@
 // on a base, by Duhamel's integral.
 #include "scene_tests.h"
 
-#include <fstream>
-
 using namespace verification;
 
 namespace

@@ -7,8 +7,6 @@
 #include <taut/interface/system.h>
 #include <taut/time/integrator.h>
 
-#include <limits>
-
 using verification::error_of;
 using verification::has;
 

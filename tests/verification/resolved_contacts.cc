@@ -6,13 +6,10 @@
 // step.
 #include "scene_tests.h"
 
-#include <functional>
-
 using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   constexpr double height = .05; // [m]
 

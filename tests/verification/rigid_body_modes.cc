@@ -8,8 +8,6 @@
 #include <taut/substructure/factored_structure.h>
 #include <taut/time/integrator.h>
 
-#include <filesystem>
-
 using namespace verification;
 
 namespace

@@ -2,15 +2,13 @@
 // Claim: moments, angular gaps and recorded rotations of wires are about any axis in space.
 #include "scene_tests.h"
 
-#include <array>
-
 using namespace verification;
 using taut::add_scaled;
 using taut::Coordinates;
 
 namespace
 {
-  constexpr double length = 3., bending_stiffness = 500., moment = 7.;
+  constexpr double beam_length = 3., bending_stiffness = 500., moment = 7.;
 
   std::string text(const Coordinates &x)
   {
@@ -27,7 +25,7 @@ namespace
   {
     std::ostringstream scene;
     scene << "Gravity = 0, 0; Start = equilibrium\nTime: End = 0\nWire beam: From = 0, 0, 0; To = "
-          << text(add_scaled({}, length, along))
+          << text(add_scaled({}, beam_length, along))
           << "; Components = beam, lateral; Mass per length = 1; Bending stiffness = "
           << bending_stiffness << "; Element size = 1\n";
     for (const auto &[name, motion] : {std::pair("up", "transverse"),
@@ -35,7 +33,7 @@ namespace
                                        {"side", "lateral"},
                                        {"side slope", "lateral slope"}})
       scene << "Support " << name << ": Wire = beam; Positions = 0; Motion = " << motion << "\n";
-    scene << "Load moment: On = beam @ " << length << "; Rotational = true; Axis = " << text(about)
+    scene << "Load moment: On = beam @ " << beam_length << "; Rotational = true; Axis = " << text(about)
           << "; Magnitude = " << moment << "\n";
     return scene.str();
   }
@@ -72,7 +70,7 @@ TEST(RotationsInSpace, moments_bend_a_beam_about_their_axis)
       const Coordinates t = unit(along), a = unit(about), across = add_scaled(a, -dot(a, t), t);
       if (norm(across) < .1)
         continue;
-      const double turn = moment * length / bending_stiffness, shift = .5 * turn * length;
+      const double turn = moment * beam_length / bending_stiffness, shift = .5 * turn * beam_length;
       const Coordinates rotation = add_scaled({}, turn, across),
                         motion = add_scaled({}, shift, cross(across, t));
       run_scene(cantilever(t, about), {},
@@ -80,8 +78,8 @@ TEST(RotationsInSpace, moments_bend_a_beam_about_their_axis)
                 {
                   for (const Coordinates &e : {Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}})
                   {
-                    const double turned = displacement(view, 0, length, e, true),
-                                 moved = displacement(view, 0, length, e);
+                    const double turned = displacement(view, 0, beam_length, e, true),
+                                 moved = displacement(view, 0, beam_length, e);
                     EXPECT_NEAR(turned, dot(rotation, e), 1e-11 * turn);
                     EXPECT_NEAR(moved, dot(motion, e), 1e-11 * shift);
                     worst = std::max({worst, std::fabs(turned - dot(rotation, e)) / turn,

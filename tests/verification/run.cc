@@ -2,13 +2,6 @@
 // Runs scenes for the tests of this folder; see run.h.
 #include "run.h"
 
-#include <unistd.h>
-
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-
 namespace verification
 {
   namespace
@@ -26,16 +19,6 @@ namespace verification
     private:
       const Callback &callback;
     };
-
-    std::string new_folder()
-    {
-      static int count = 0;
-      const std::string name =
-          "taut_verification_" + std::to_string(getpid()) + "_" + std::to_string(++count);
-      const std::filesystem::path path = std::filesystem::temp_directory_path() / name;
-      std::filesystem::create_directories(path);
-      return path.string();
-    }
   } // namespace
 
   std::string scene_file(const std::string &name)
@@ -45,24 +28,16 @@ namespace verification
 
   Session::Session(const std::string &file_or_text, const Overrides &overrides,
                    const taut::Communicator &processes)
-      : scratch(new_folder())
   {
     std::string file = file_or_text;
     if (file.find('\n') != std::string::npos)
     {
-      file = scratch + "/scene.prm";
-      std::ofstream(file) << prm(file_or_text);
+      file = scratch.write("scene.prm", prm(file_or_text));
     }
-    values.read(file, Overrides{"Output.Folder=" + scratch + "/results", "Output.Interval=1e9",
+    values.read(file, Overrides{"Output.Folder=" + scratch / "results", "Output.Interval=1e9",
                                 "Output.Link interval=1e9"} +
                           overrides);
     runner = std::make_unique<taut::Simulation>(values, text, processes);
-  }
-
-  Session::~Session()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(scratch, ignored);
   }
 
   void Session::run(const Callback &callback)
@@ -70,6 +45,25 @@ namespace verification
     Guest guest(callback);
     runner->observe(guest);
     runner->run();
+  }
+
+  nlohmann::json Session::statistics() const
+  {
+    return nlohmann::json::parse(file_text(folder() + "/statistics.json"));
+  }
+
+  std::string Session::write_scene() const
+  {
+    std::ostringstream entries;
+    parameters().print(entries);
+    return scratch.write("results/scene.prm", entries.str());
+  }
+
+  Said say(const std::string &file_or_text, const Overrides &overrides, const Callback &callback)
+  {
+    Session session(file_or_text, overrides);
+    session.run(callback);
+    return {session.statistics(), session.log(), read_table(session.folder() + "/sliding.csv")};
   }
 
   void run_scene(const std::string &file_or_text, const Overrides &overrides,

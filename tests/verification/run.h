@@ -2,16 +2,12 @@
 #ifndef taut_verification_run_h
 #define taut_verification_run_h
 
+#include "common.h"
 #include "scene_builder.h"
 
 #include <taut/simulation/simulation.h>
 
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <nlohmann/json.hpp>
 
 namespace verification
 {
@@ -40,7 +36,6 @@ namespace verification
     /// All ranks of @p processes make and run it together.
     explicit Session(const std::string &file_or_text, const Overrides &overrides = {},
                      const taut::Communicator &processes = taut::Communicator());
-    ~Session();
 
     /// Runs to the end; @p callback sees the start and each step.
     void run(const Callback &callback = {});
@@ -50,8 +45,14 @@ namespace verification
     const std::string &folder() const { return values.output.folder; }
     std::string log() const { return text.str(); }
 
+    /// What statistics.json says.
+    nlohmann::json statistics() const;
+
+    /// Writes all entries to a parameter file beside the results; returns its path.
+    std::string write_scene() const;
+
   private:
-    std::string scratch;
+    Folder scratch;
     taut::Parameters values;
     std::ostringstream text;
     std::unique_ptr<taut::Simulation> runner;
@@ -64,6 +65,26 @@ namespace verification
   /// The log of a run.
   std::string log_of(const std::string &file_or_text, const Overrides &overrides = {},
                      const Callback &callback = {});
+
+  /// What a run says: statistics.json, the log, and the table of contacts that slide.
+  struct Said
+  {
+    nlohmann::json json;
+    std::string log;
+    std::map<std::string, std::vector<double>> sliding;
+  };
+  Said say(const std::string &file_or_text, const Overrides &overrides = {},
+           const Callback &callback = {});
+
+  /// The number of a quantity of statistics.json.
+  inline double value(const nlohmann::json &quantity)
+  {
+    return quantity.at("value").get<double>();
+  }
+  inline double value(const nlohmann::json &of, const std::string &name)
+  {
+    return value(of.at(name));
+  }
 
   /// What @p value gives at the start and after each step.
   std::vector<double> history_of(const std::string &file_or_text, const Overrides &overrides,

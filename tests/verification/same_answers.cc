@@ -8,8 +8,6 @@
 
 #include <deal.II/lac/lapack_templates.h>
 
-#include <limits>
-
 using namespace verification;
 
 namespace

@@ -5,15 +5,10 @@
 // for a force that grows in time, the end of the run.
 #include "scene_tests.h"
 
-#include <nlohmann/json.hpp>
-
-#include <fstream>
-
 using namespace verification;
 
 namespace
 {
-  const double pi = std::acos(-1.);
 
   std::string beam(const std::string &more, const std::string &sections)
   {
@@ -27,16 +22,7 @@ namespace
 
   nlohmann::json forces_of(const std::string &scene)
   {
-    Session session(scene, {});
-    session.run();
-    nlohmann::json said;
-    std::ifstream(session.folder() + "/statistics.json") >> said;
-    return said["observers"]["beam"];
-  }
-
-  double value(const nlohmann::json &of, const std::string &name)
-  {
-    return of[name]["value"].get<double>();
+    return say(scene).json["observers"]["beam"];
   }
 } // namespace
 

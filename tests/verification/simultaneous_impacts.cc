@@ -33,7 +33,7 @@ namespace
     std::string log;
   };
 
-  Outcome run(const std::string &scene, const Overrides &overrides = {})
+  Outcome outcome_of(const std::string &scene, const Overrides &overrides = {})
   {
     Outcome result;
     result.log = log_of(
@@ -65,7 +65,7 @@ TEST(SimultaneousImpacts, are_those_of_one_step)
   for (const double gap : {0., 1e-12, 1e-7})
     for (const Overrides &scheme : {Overrides(), velocities})
     {
-      const Outcome outcome = run(cradle(gap), scheme);
+      const Outcome outcome = outcome_of(cradle(gap), scheme);
       const bool is_sequence = gap > 0. && !scheme.empty();
       if (is_sequence)
         expect_velocities(outcome, {0., 0., 0., 0., 1.});
@@ -80,7 +80,7 @@ TEST(SimultaneousImpacts, are_those_of_one_step)
 // Each mass gives its velocity to the next one.
 TEST(SimultaneousImpacts, are_none_where_steps_tell_them_apart)
 {
-  const Outcome outcome = run(cradle(.01));
+  const Outcome outcome = outcome_of(cradle(.01));
   expect_velocities(outcome, {0., 0., 0., 0., 1.});
   EXPECT_FALSE(has(outcome.log, "Impacts:")) << outcome.log;
 }
@@ -91,14 +91,14 @@ TEST(SimultaneousImpacts, need_a_body_that_shares_them)
 {
   const std::string floor =
       "Link floor: Type = stop; From = ground; To = a; Direction = 0, 1; Gap = 0.01\n";
-  const Outcome outcome = run(cradle(.01) + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
+  const Outcome outcome = outcome_of(cradle(.01) + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
   expect_velocities(outcome, {0., 0., 0., 0., 1.});
   EXPECT_FALSE(has(outcome.log, "Impacts:")) << outcome.log;
 }
 
 TEST(SimultaneousImpacts, are_not_named_without_restitution)
 {
-  const Outcome outcome = run(cradle(0.), {"Time.Moreau-Jean.Restitution=0"});
+  const Outcome outcome = outcome_of(cradle(0.), {"Time.Moreau-Jean.Restitution=0"});
   expect_velocities(outcome, {.2, .2, .2, .2, .2});
   EXPECT_FALSE(has(outcome.log, "Impacts:")) << outcome.log;
 }
@@ -113,9 +113,9 @@ TEST(SimultaneousImpacts, are_none_at_rest)
     scene += "Link " + side +
              ": Type = stop; From = ground; To = a; Direction = " + (side == "l" ? "0.3" : "-0.3") +
              ", 1\n";
-  const Outcome at_rest = run(scene, {"Time/Allow energy gain=true"});
+  const Outcome at_rest = outcome_of(scene, {"Time/Allow energy gain=true"});
   EXPECT_FALSE(has(at_rest.log, "Impacts:")) << at_rest.log;
-  const Outcome falls = run(scene, {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
+  const Outcome falls = outcome_of(scene, {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
   EXPECT_TRUE(has(falls.log, "'l', 'r', contacts that share")) << falls.log;
 }
 
@@ -134,8 +134,8 @@ TEST(SimultaneousImpacts, balls_that_nothing_connects_bounce_as_alone)
              "Link spring: Type = joint; From = held; To = ground; Direction = 1, 0; "
              "Stiffness = 3e4\n"
              "Link rest: Type = stop; From = held; To = ground; Direction = -1, 0; Gap = 0.0055\n";
-  const Outcome alone = run(head + ball), slow = run(head + held),
-                together = run(head + ball + held);
+  const Outcome alone = outcome_of(head + ball), slow = outcome_of(head + held),
+                together = outcome_of(head + ball + held);
   ASSERT_EQ(together.velocity.size(), 2u);
   EXPECT_GT(std::fabs(alone.velocity[0] + 1. + 9.81 * .3), .1);
   EXPECT_NEAR(together.velocity[0], alone.velocity[0], 1e-12);

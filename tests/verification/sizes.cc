@@ -7,8 +7,6 @@
 #include "time/matrix_norms.h"
 #include <taut/interface/constraints.h>
 
-#include <limits>
-
 using namespace verification;
 
 namespace

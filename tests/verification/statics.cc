@@ -10,7 +10,6 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81;
 
   /// A wire of 30 m along x, one step of a run that stays at rest, and what changes that.
   std::string one_wire(const std::string &wire, const std::string &items)

@@ -7,8 +7,6 @@
 
 #include "output/low_pass.h"
 
-#include <nlohmann/json.hpp>
-
 using namespace verification;
 
 namespace
@@ -64,11 +62,6 @@ Statistics: Window = 3, 8; Filter frequency = 20
     return result;
   }
 
-  double value(const nlohmann::json &said, const char *name)
-  {
-    return said.at(name).at("value").get<double>();
-  }
-
   void expect_moments(const nlohmann::json &said, const Moments &m)
   {
     const auto near = [&](const char *name, const double expected)
@@ -82,23 +75,6 @@ Statistics: Window = 3, 8; Filter frequency = 20
     near("mean_minus_3_standard_deviations", m.mean - 3. * m.deviation);
     near("maximum", m.largest);
     near("minimum", m.least);
-  }
-
-  struct Said
-  {
-    nlohmann::json json;
-    std::string log;
-  };
-
-  Said say(const std::string &file_or_text, const Overrides &overrides,
-           const Callback &callback = {})
-  {
-    Session session(file_or_text, overrides);
-    session.run(callback);
-    Said result;
-    std::ifstream(session.folder() + "/statistics.json") >> result.json;
-    result.log = session.log();
-    return result;
   }
 
   const std::string mean = "Statistics.Expected ranges.Mean=";

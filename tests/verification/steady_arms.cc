@@ -8,10 +8,10 @@ using namespace verification;
 
 namespace
 {
-  constexpr double g = 9.81, T = 10000., span = 40., stagger = .25;
+  constexpr double T = 10000., span = 40., stagger = .25;
 
   /// Two spans with one arm, without droppers; the arm has 3 kg, 1.2 m aside and 0.3 m up.
-  const std::string line = R"(Generator = catenary
+  const std::string line_with_arms = R"(Generator = catenary
 Start = equilibrium
 Catenary: Span lengths = 40, 40; Pantographs =
 Catenary/Contact wire: Model = string; Mass per length = 0.1; Tension = 10000; Element size = 1; Stagger = 0, 0.25, 0
@@ -48,16 +48,16 @@ TEST(SteadyArm, a_rigid_body_balances_moments_about_its_hinge)
       EXPECT_GT(std::fabs(z), .1);
     };
   };
-  run_scene(line, {}, check(1.));
+  run_scene(line_with_arms, {}, check(1.));
   // To the other side the hinge is on the other side.
-  run_scene(line, {"Catenary/Contact wire/Stagger=0, -0.25, 0"}, check(-1.));
+  run_scene(line_with_arms, {"Catenary/Contact wire/Stagger=0, -0.25, 0"}, check(-1.));
   EXPECT_EQ(n_seen, 2);
 }
 
 TEST(SteadyArm, small_motions_of_a_rigid_body_are_those_of_a_lever_under_tension)
 {
   // A light push runs past a level arm, whose tension is 125 N.
-  const std::string pushed = line + R"(Gravity = 0, 0
+  const std::string pushed = line_with_arms + R"(Gravity = 0, 0
 Catenary: Pantographs = push
 Catenary/Pantograph push: Masses = 1; Stiffnesses = 0; Dampings = 0; Static force = 0.5; Start = 25; Speed = 100
 Time: End = 1
@@ -78,7 +78,7 @@ Time: End = 1
 TEST(SteadyArm, a_rigid_body_needs_mass_and_reach)
 {
   const auto error = [](const std::string &entry)
-  { return error_of([&] { Session(line, {entry}); }); };
+  { return error_of([&] { Session(line_with_arms, {entry}); }); };
   EXPECT_TRUE(has(error("Catenary/Supports/Arm mass=0"), "needs a positive one"));
   EXPECT_TRUE(has(error("Catenary/Supports/Arm reach=0"), "Arm reach"));
 }

@@ -7,8 +7,6 @@
 
 #include <taut/output/statistics.h>
 
-#include <set>
-
 using namespace verification;
 
 namespace
@@ -18,7 +16,7 @@ namespace
   /// Half-waves of 0.1 m at 20 1/s and on the stop at sqrt(4000) 1/s, from the top.
   double exact_oscillator(const double t)
   {
-    const double a = .1, w1 = 20., w2 = std::sqrt(4000.), pi = std::acos(-1.);
+    const double a = .1, w1 = 20., w2 = std::sqrt(4000.);
     const double phase = std::fmod(t + .5 * pi / w1, pi / w1 + pi / w2);
     return phase < pi / w1 ? a * std::sin(w1 * phase)
                            : -a * w1 / w2 * std::sin(w2 * (phase - pi / w1));

@@ -5,10 +5,6 @@
 // they share in this ratio at all times, whatever the strip does.
 #include "scene_tests.h"
 
-#include <nlohmann/json.hpp>
-
-#include <fstream>
-
 using namespace verification;
 
 namespace
@@ -335,7 +331,6 @@ TEST(Strips, a_wire_may_end_while_it_is_pressed)
 TEST(Strips, an_overlap_hands_a_pantograph_over)
 {
   const Overrides fixed = {"Time/Check steps=no", "Time/End=1.7"};
-  nlohmann::json said;
   for (const char *const step : {"1e-3", "5e-4"})
   {
     double largest = 0., before = 0.;
@@ -356,7 +351,7 @@ TEST(Strips, an_overlap_hands_a_pantograph_over)
     figure(std::string("overlap, largest step of the sum at ") + step, largest, "N");
     EXPECT_TRUE(both);
     EXPECT_LT(largest, 1e4 * std::stod(step));
-    std::ifstream(session.folder() + "/statistics.json") >> said;
+    const nlohmann::json said = session.statistics();
     const auto &strip = said["sliding_contacts"]["trailing"];
     EXPECT_EQ(strip["contact_loss"]["value"], 0.);
     EXPECT_EQ(strip["wires"].size(), 2u);

@@ -6,8 +6,6 @@
 
 #include <boost/math/special_functions/ellint_1.hpp>
 
-#include <tuple>
-
 using namespace turning;
 
 namespace

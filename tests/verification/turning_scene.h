@@ -12,7 +12,6 @@ namespace turning
   using taut::Coordinates;
   using verification::has, verification::number, verification::operator+, verification::Overrides;
 
-  const double pi = std::acos(-1.), g = 9.81;
 
   /// What a step ends with.
   struct Motion

@@ -15,13 +15,13 @@ namespace
   }
 
   /// Where two circles about level points meet, below.
-  Coordinates below(const double distance, const double a, const double b)
+  Coordinates meeting_below(const double distance, const double a, const double b)
   {
     const double x = (a * a - b * b + distance * distance) / (2. * distance);
     return {x, -std::sqrt(a * a - x * x), 0.};
   }
 
-  std::string error_of(const std::string &entries, const Overrides &overrides = {})
+  std::string error_at_rest(const std::string &entries, const Overrides &overrides = {})
   {
     const Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
     return verification::error_of([&] { at_rest(scene, overrides); });
@@ -40,7 +40,7 @@ TEST(TurningStatics, weight_on_two_ropes)
                        {rope("ground @ 0, 0", "m0", a),
                         rope("m0", "ground @ " + number(distance) + ", 0", b)}};
         const Motion m = at_rest(scene);
-        const Coordinates expected = below(distance, a, b);
+        const Coordinates expected = meeting_below(distance, a, b);
         EXPECT_LT(norm(m.place[0] - expected), 1e-9 * size);
         // N_a sin + N_b sin = 0, with the unit vectors from the weight to its ropes.
         const double ax = -expected.x / a, ay = -expected.y / a, bx = (distance - expected.x) / b,
@@ -166,25 +166,25 @@ TEST(TurningStatics, what_cannot_turn_is_refused)
   const auto expect = [](const std::string &error, const std::string &part)
   { EXPECT_TRUE(has(error, part)) << error; };
   const std::string ends = "From = ground @ 0, 0; To = m0";
-  expect(error_of(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
-  expect(error_of(ends + "; Type = ball joint"), "no direction from end to end");
-  expect(error_of(ends + "; Type = stop; Rotational = true"), "between displacements");
-  expect(error_of(ends + "; Type = dropper; Length = 1; Gap = 1"), "leave one of them");
-  expect(error_of(ends + "; Type = stop; Gap = 2"), "Give it a Length");
-  expect(error_of("From = ground; To = m0; Type = dropper"), "ground @ x, y, z");
-  expect(error_of("From = ground @ 1, 0; To = m0; Type = dropper; Length = 1"),
+  expect(error_at_rest(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
+  expect(error_at_rest(ends + "; Type = ball joint"), "no direction from end to end");
+  expect(error_at_rest(ends + "; Type = stop; Rotational = true"), "between displacements");
+  expect(error_at_rest(ends + "; Type = dropper; Length = 1; Gap = 1"), "leave one of them");
+  expect(error_at_rest(ends + "; Type = stop; Gap = 2"), "Give it a Length");
+  expect(error_at_rest("From = ground; To = m0; Type = dropper"), "ground @ x, y, z");
+  expect(error_at_rest("From = ground @ 1, 0; To = m0; Type = dropper; Length = 1"),
          "start at one place");
-  expect(error_of(ends + "; Type = dropper; Length = .9"), "starts with a gap");
-  expect(error_of(ends + "; Type = stop; Turns = false; Length = .9"), "set 'Turns = true'");
+  expect(error_at_rest(ends + "; Type = dropper; Length = .9"), "starts with a gap");
+  expect(error_at_rest(ends + "; Type = stop; Turns = false; Length = .9"), "set 'Turns = true'");
   const std::string good = ends + "; Type = dropper; Length = 1";
-  EXPECT_EQ(error_of(good), "");
-  expect(error_of(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");
+  EXPECT_EQ(error_at_rest(good), "");
+  expect(error_at_rest(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");
   for (const char *const conditions : {"velocities", "gaps"})
-    expect(error_of(good, {"Time/Scheme=Moreau-Jean",
+    expect(error_at_rest(good, {"Time/Scheme=Moreau-Jean",
                            "Time/Moreau-Jean/Conditions=" + std::string(conditions),
                            "Time/Moreau-Jean/Theta=1"}),
            "its length would drift");
-  expect(error_of(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
+  expect(error_at_rest(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
                          "Network/Spring x/To=m0", "Network/Spring x/Direction=1, 0",
                          "Network/Spring x/Stiffness=1", "Network/Spring y/To=m0",
                          "Network/Spring y/Stiffness=1", "Network/Spring z/To=m0",

@@ -7,8 +7,6 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <array>
-
 using namespace verification;
 
 namespace

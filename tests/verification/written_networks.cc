@@ -6,33 +6,22 @@
 #include "scene/network_entries.h"
 #include "simulation/network_file.h"
 
-#include <nlohmann/json.hpp>
-
-#include <unistd.h>
-
-#include <filesystem>
-
 using namespace verification;
 
 namespace
 {
-  namespace fs = std::filesystem;
-
-  /// A file that is removed again.
+  /// The network of a scene, in a file.
   struct Written
   {
     Written(const std::string &file, const Overrides &overrides)
-        : name((fs::temp_directory_path() / ("taut_written_" + std::to_string(getpid()) + ".prm"))
-                   .string())
     {
-      fs::remove(name);
       taut::Parameters parameters;
       parameters.read(file, overrides);
       taut::write_network(parameters, name, left_out);
     }
-    ~Written() { fs::remove(name); }
 
-    const std::string name;
+    const Folder folder;
+    const std::string name = folder / "network.prm";
     std::vector<std::string> left_out;
   };
 
