@@ -2,13 +2,44 @@
 #ifndef taut_patterned_cholesky_h
 #define taut_patterned_cholesky_h
 
-#include "complementarity/sparse_triangle.h"
+#include <taut/base/sparse_cholesky.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace taut
 {
+  /// The lower triangle of a sparse symmetric matrix whose values change more often than its
+  /// pattern: row after row with ascending columns, and the diagonal apart.
+  struct SparseTriangle
+  {
+    /// An entry beside the diagonal, as seen from one of its two rows.
+    struct Neighbour
+    {
+      unsigned int row;  ///< the other row
+      std::size_t entry; ///< index in `value`
+    };
+
+    std::vector<std::size_t> begin; ///< first entry of each row, and the end
+    std::vector<unsigned int> column;
+    std::vector<double> value;
+    std::vector<double> diagonal;
+
+    /// The entries of each row in both triangles.
+    std::vector<std::size_t> neighbours_begin;
+    std::vector<Neighbour> neighbours;
+
+    std::size_t size() const { return diagonal.size(); }
+
+    /// Pattern of @p entries in @p n rows, with zero values.
+    void set_pattern(std::size_t n, SymmetricEntries entries);
+
+    /// Sets the values; entries of one position add. Returns false, with zero values, if the
+    /// pattern lacks a position. Allocates nothing.
+    bool set_values(const SymmetricEntries &entries);
+  };
+
   /// Order of elimination, elimination tree and pattern of the factor of a sparse symmetric matrix
   /// (T. A. Davis, Direct Methods for Sparse Linear Systems (2006), 4.1 and 4.3). Places count in
   /// the order of elimination.

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "output/accuracy_report.h"
 
+#include "output/accuracy_report.h"
+#include "base/text.h"
+#include "time/longest_step.h"
+#include <taut/base/archive.h>
+#include <taut/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
 #include <ostream>
+#include <sstream>
+#include <utility>
 
 namespace taut
 {
@@ -45,5 +54,244 @@ namespace taut
     log << measures.report();
     if (accuracy)
       log << accuracy->report();
+  }
+
+  namespace
+  {
+    /// Largest number of samples in a run.
+    constexpr long most_samples = 1000;
+
+    /// Number of steps below which longer steps say nothing.
+    constexpr long least_steps = 64;
+
+    /// Ratio of the steps of another run, longer or shorter: the third power of the golden ratio,
+    /// so that impacts have different places within a step in both.
+    constexpr double ratio_of_steps = 4.2360679774997896;
+
+    /// Power of the step ratio in the tolerance of adaptive steps: local errors have order three,
+    /// errors of a run order two.
+    constexpr double power_of_tolerance = 1.5;
+
+    /// Lengths of adaptive steps are powers of two, up to twice as long as the tolerance asks for.
+    constexpr double rounding_of_lengths = .5;
+
+    /// Bounds of differences over the bounds of MotionDifference. Compared with longer steps, an
+    /// error is within its bound below the first. Compared with shorter steps, it is within below
+    /// the second and beyond above the third, even if these are no better.
+    constexpr double agrees = .6, surely_good = .25, surely_bad = 1.25;
+
+    /// Part of the bounds for the recommended step, and bound of the difference to the shortest
+    /// steps plus their own estimated error.
+    constexpr double aim = .8, good = .95;
+
+    /// Products of DoFs and steps in another run; a second has about a hundred millions. A step
+    /// costs as much as some DoFs. Nonlinear bodies need several solutions, turning links about
+    /// two.
+    constexpr double most_work = 4e7, work_of_step = 100., work_of_newton = 8.,
+                     work_of_turning = 2.;
+
+    bool keeps_state(const Substructure &body)
+    {
+      return archived([&](OutputArchive &archive) { body.save(archive); }) !=
+             archived([](OutputArchive &) {});
+    }
+
+    std::size_t samples_of(const RunInSteps &run)
+    {
+      const long stride = (run.n_steps + most_samples - 1) / most_samples;
+      return static_cast<std::size_t>(run.n_steps / std::max(1L, stride));
+    }
+
+    double interval_of(const RunInSteps &run)
+    {
+      return run.motion.settings().step *
+             std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
+    }
+
+    double work_of(const RunInSteps &run)
+    {
+      double n_dofs = 0., n_nonlinear = 0.;
+      for (const Structure::Body &body : run.motion.bodies().all_bodies())
+        n_dofs += static_cast<double>(body.n_dofs);
+      for (std::size_t k = 0; k < run.motion.bodies().size(); ++k)
+        n_nonlinear += !run.motion.bodies()[k].is_linear();
+      run.motion.bodies().communicator().sum(&n_nonlinear, 1);
+      const double solutions = n_nonlinear > 0.                             ? work_of_newton
+                               : !run.motion.links().turning_rows().empty() ? work_of_turning
+                                                                            : 1.;
+      return static_cast<double>(run.n_steps) *
+             (work_of_step + n_dofs + static_cast<double>(run.motion.links().size())) * solutions;
+    }
+
+    bool has_longer_steps(const RunInSteps &run)
+    {
+      return !run.motion.settings().steps.adaptive() && run.n_steps >= least_steps;
+    }
+
+    std::string percent(const double part)
+    {
+      return to_text(std::setprecision(2), 100. * part, " %");
+    }
+  } // namespace
+
+  StepAccuracy::StepAccuracy(RunInSteps from)
+      : run(std::move(from)), groups(run.motion.bodies(), run.motion.links()), work(work_of(run)),
+        n_samples(samples_of(run)), interval(interval_of(run)),
+        own(run.motion.bodies(), run.motion.links(), groups, run.motion.reference(),
+            run.motion.start().state, interval, n_samples)
+  {
+  }
+
+  bool StepAccuracy::is_affordable(const RunInSteps &run)
+  {
+    return work_of(run) <=
+           most_work * (has_longer_steps(run) ? ratio_of_steps : 1. / ratio_of_steps);
+  }
+
+  /// Whether a run with steps that are so many times as long is affordable.
+  bool StepAccuracy::affords(const double about) const
+  {
+    return run.at_any_cost || work <= most_work * about;
+  }
+
+  /// Difference from a run to the same end with steps that are about so many times as long;
+  /// nothing: no such run.
+  std::optional<MotionDifference> StepAccuracy::compare(const double about,
+                                                        const std::function<bool()> &stop)
+  {
+    const long n = std::max(1L, std::lround(static_cast<double>(run.n_steps) / about));
+    const double factor = static_cast<double>(run.n_steps) / static_cast<double>(n),
+                 step = run.motion.settings().step * factor;
+    StepParameters control = run.motion.settings().steps;
+    control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
+    control.largest *= factor;
+    std::vector<LongestStep> longest_steps = run.motion.longest_steps_in_contacts();
+    for (LongestStep &longest : longest_steps)
+      longest.contact_time *= factor;
+    try
+    {
+      Motion motion(run.motion, step, control, longest_steps, n);
+      MotionRecord other(run.motion.bodies(), run.motion.links(), groups, run.motion.reference(),
+                         run.motion.start().state, interval, n_samples);
+      while (!motion.is_finished())
+      {
+        motion.advance();
+        other.record(motion.state(), motion.report());
+        if (stop())
+        {
+          reason = "the run was ended";
+          return std::nullopt;
+        }
+      }
+      return own.difference(other);
+    }
+    catch (const UserError &e)
+    {
+      // An error without an entry may be on this rank alone, and ends the run.
+      if (run.motion.bodies().communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
+        throw;
+      reason = to_text("a run with a step of ", step, " s ended: ", e.what());
+      return std::nullopt;
+    }
+  }
+
+  void StepAccuracy::measure(const std::function<bool()> &stop)
+  {
+    bool has_state = false;
+    for (std::size_t k = 0; k < run.motion.bodies().size(); ++k)
+      has_state = has_state || keeps_state(run.motion.bodies()[k]);
+    if (run.motion.bodies().communicator().any(has_state))
+    {
+      reason = "a body keeps a state of its own";
+      return;
+    }
+    std::optional<MotionDifference> coarse;
+    if (has_longer_steps(run))
+      coarse = compare(ratio_of_steps, stop);
+    const bool affords_shorter = affords(1. / ratio_of_steps);
+    if (coarse && (coarse->over_bounds() <= agrees || !affords_shorter))
+    {
+      extrapolate(*coarse);
+      return;
+    }
+    if (!affords_shorter)
+      return;
+    found = compare(1. / ratio_of_steps, stop);
+    if (!found)
+      return;
+    const double over = found->over_bounds();
+    if (coarse)
+      order = std::clamp(std::log(coarse->over_bounds() / over) / std::log(ratio_of_steps), 1., 2.);
+    too_long = !(over <= surely_bad);
+    if (too_long || (coarse && over <= surely_good))
+      return;
+    constexpr double shortest = 1. / (ratio_of_steps * ratio_of_steps);
+    const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
+    if (finest)
+      found = finest;
+    // The shorter steps have an error, too.
+    const double now = found->over_bounds(),
+                 more = finest ? std::max(0., now - over) : now / (ratio_of_steps - 1.);
+    too_long = !(now + more <= good);
+  }
+
+  /// Estimates the error from longer steps, whose error is at least larger by the ratio.
+  void StepAccuracy::extrapolate(MotionDifference coarse)
+  {
+    for (double *const e : {&coarse.place, &coarse.impulse, &coarse.energy})
+      *e /= ratio_of_steps - 1.;
+    found = coarse;
+    too_long = !(coarse.over_bounds() <= good);
+  }
+
+  /// Part of the step with which the error falls to its bound.
+  double StepAccuracy::shortened(const double over_bounds) const
+  {
+    return std::min(.5, std::pow(aim / over_bounds, 1. / order));
+  }
+
+  std::vector<Warning> StepAccuracy::warnings() const
+  {
+    if (!too_long)
+      return {};
+    const double part = std::isfinite(found->over_bounds()) ? shortened(found->over_bounds()) : .1;
+    const std::string body = "'" + run.motion.bodies().all_bodies()[found->body].name + "'";
+    std::ostringstream out;
+    out.precision(2);
+    if (run.other_cause.empty())
+      out << "the step is too long: ";
+    if (found->is_place())
+      out << "the place of " << body << " is off by " << percent(found->place)
+          << " of the largest displacement at t = " << found->time << " s";
+    else if (found->is_impulse())
+      out << "the impulse of '" << run.motion.links()[found->row].name << "' is off by "
+          << percent(found->impulse) << " of the largest";
+    else
+      out << "the energy of what is connected with " << body << " is off by "
+          << percent(found->energy) << " of the largest";
+    if (!run.other_cause.empty())
+      out << ": " << run.other_cause;
+    else if (run.motion.settings().steps.adaptive())
+      out << ". Take a Tolerance of about "
+          << run.motion.settings().steps.tolerance *
+                 std::pow(rounding_of_lengths * part, power_of_tolerance);
+    else
+      out << ". Take a step of about " << run.motion.settings().step * part << " s";
+    return {{"step", out.str(), found->over_bounds(), 1., "1", found->time}};
+  }
+
+  std::string StepAccuracy::report() const
+  {
+    if (!found)
+      return "Steps: the error is not known, as " + reason + '\n';
+    std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
+                       percent(found->impulse) + ", of energies " + percent(found->energy) +
+                       " of the largest, from runs with other steps";
+    if (too_long && !run.other_cause.empty())
+      return text + ". The cause may be the joints that the log warns of\n";
+    text += '\n';
+    for (const Warning &warning : warnings())
+      text += "  Warning: " + warning.message + '\n';
+    return text;
   }
 } // namespace taut

@@ -2,15 +2,85 @@
 #ifndef taut_accuracy_report_h
 #define taut_accuracy_report_h
 
-#include "output/step_accuracy.h"
+#include "output/motion_record.h"
+#include <taut/base/warning.h>
 #include <taut/output/observer.h>
+#include <taut/time/motion.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace taut
 {
+  /// A run from start to end that may be made once more in other steps.
+  struct RunInSteps
+  {
+    Motion &motion;
+    long n_steps; ///< of the length of its options
+
+    bool at_any_cost = false;     ///< allows other runs at any cost
+    std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
+  };
+
+  /**
+   * Estimates the error of a run by its steps. Use it at the end of a run that is cheap enough to
+   * repeat.
+   *
+   * First the run is compared with one of 4.24 times the step, which costs a quarter. If both agree
+   * well within the bounds of MotionDifference, the error of the run is at most a third of their
+   * difference. Otherwise the other run has a step that is shorter by this factor, and near the
+   * bounds by its square (L. F. Richardson's extrapolation, 1911, with an order from one to two).
+   * Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step. If shorter steps
+   * cost too much, the longer steps give a rough error.
+   */
+  class StepAccuracy
+  {
+  public:
+    explicit StepAccuracy(RunInSteps run);
+
+    /// Whether there is another run that takes less than about half a second.
+    static bool is_affordable(const RunInSteps &run);
+
+    /// Records an accepted step of the run itself.
+    void record(const State &state, const StepReport &report) { own.record(state, report); }
+
+    /// Makes the other runs. After each step @p stop may end them. Called by all ranks together.
+    void measure(const std::function<bool()> &stop);
+
+    /// Errors of the run, relative to its largest values; empty: unknown.
+    const std::optional<MotionDifference> &error() const { return found; }
+
+    /// For an error beyond its bound: its place and size, and the step or tolerance that the run
+    /// needs.
+    std::vector<Warning> warnings() const;
+
+    /// One line for the log, and the warning if there is one.
+    std::string report() const;
+
+    void save(OutputArchive &archive) { own.save(archive); }
+    void load(InputArchive &archive) { own.load(archive); }
+
+  private:
+    bool affords(double about) const;
+    std::optional<MotionDifference> compare(double about, const std::function<bool()> &stop);
+    void extrapolate(MotionDifference coarse);
+    double shortened(double over_bounds) const;
+
+    const RunInSteps run;
+    const ConnectedBodies groups;
+    const double work; ///< of the run: DoFs times steps
+    const std::size_t n_samples;
+    const double interval; ///< between samples [s]
+    MotionRecord own;
+    std::optional<MotionDifference> found;
+    bool too_long = false;
+    double order = 1.;  ///< of the error in the step
+    std::string reason; ///< why the error is unknown
+  };
+
   /// Reports the measures of contacts at the end of a run, and on request the errors of its steps.
   class AccuracyReport : public Observer
   {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/nearest_name.h"
-#include "output/low_pass.h"
-#include "output/power_spectrum.h"
+#include "output/signals.h"
 #include "scene/travel.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/contact_quantities.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
-#include "output/low_pass.h"
+#include "output/signals.h"
 #include <taut/base/archive.h>
 #include <taut/output/statistics.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tables beside statistics.json, of the force in the window.
 #include "base/write_file.h"
-#include "output/power_spectrum.h"
-#include "output/rainflow.h"
+#include "output/signals.h"
 #include <taut/output/contact_quantities.h>
 #include <taut/output/statistics.h>
 #include <taut/output/table_file.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "output/rainflow.h"
+#include "output/signals.h"
 #include "output/reactions.h"
 #include <taut/output/support_figures.h>
 

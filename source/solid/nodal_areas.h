@@ -2,7 +2,6 @@
 #ifndef taut_nodal_areas_h
 #define taut_nodal_areas_h
 
-#include "solid/node_normals.h"
 #include "solid/surface_geometry.h"
 
 #include <array>
@@ -11,6 +10,22 @@
 
 namespace taut
 {
+  /// Outer unit normals of faces at their nodes, not averaged between faces.
+  class NodeNormals
+  {
+  public:
+    explicit NodeNormals(const SurfaceGeometry &geometry);
+
+    /// At a node of a face, in the order of the face's nodes.
+    const Coordinates &at(const std::size_t face, const std::size_t local) const
+    {
+      return normals[face][local];
+    }
+
+  private:
+    std::vector<std::vector<Coordinates>> normals;
+  };
+
   /**
    * Integrals of the dual basis functions of the nodes, which are the integrals of the shape
    * functions, on the faces that count for each node. At edges of triangles of degree 2 the basis

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/coupled_rows.h"
 #include "time/row_flexibilities.h"
 
 #include "time/contact_resolution.h"

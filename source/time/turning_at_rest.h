@@ -3,6 +3,7 @@
 #define taut_turning_at_rest_h
 
 #include <taut/interface/constraints.h>
+#include <taut/substructure/structure.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <memory>
@@ -91,6 +92,16 @@ namespace taut
     std::unique_ptr<Constraints> linear;
     std::vector<std::size_t> source; ///< constraint that a spring belongs to
   };
+
+  // Both are about the nonlinear bodies of this rank at a displacement U from the undeformed
+  // structure [m, rad]. A body that is not slender makes them false.
+
+  /// True if all tangents are definite but for rounding: what a motion costs no energy of is no
+  /// tension, as of a cable that lies slack.
+  bool are_indifferent(const Structure &structure, const BodyVectors &U);
+
+  /// True if all bodies are in tension but at free ends.
+  bool are_in_tension(const Structure &structure, const BodyVectors &U);
 } // namespace taut
 
 #endif

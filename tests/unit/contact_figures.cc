@@ -2,8 +2,7 @@
 // Figures of contact forces and of droppers against records whose figures are known.
 #include "common.h"
 
-#include "output/power_spectrum.h"
-#include "output/rainflow.h"
+#include "output/signals.h"
 #include <taut/output/contact_quantities.h>
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/support_figures.h>

@@ -5,7 +5,6 @@
 #include "common.h"
 #include "fuzz/library_bodies.h"
 
-#include "output/energy.h"
 #include <taut/output/fields.h>
 #include <taut/output/series.h>
 #include <taut/output/statistics.h>
@@ -52,9 +51,9 @@ namespace
     taut::Statistics statistics({}, run.scene(), run.constraints());
     taut::Series tables(run.scene(), run.constraints());
     taut::Fields fields(folder, run.scene(), run.structure(), .1, 1);
-    taut::Energy energy;
+    const auto energy = taut::Registry<taut::Observer>::instance().create("energy");
     for (taut::Observer *observer :
-         std::initializer_list<taut::Observer *>{&statistics, &tables, &fields, &energy})
+         std::initializer_list<taut::Observer *>{&statistics, &tables, &fields, energy.get()})
       run.observe(*observer);
     run.observe(checkpoints);
     run.begin();

@@ -5,7 +5,7 @@
 // with a rigid contact, converged: standard deviation 28.27 N, contact loss 0.4 %.
 #include "scene_tests.h"
 
-#include "output/low_pass.h"
+#include "output/signals.h"
 
 using namespace verification;
 

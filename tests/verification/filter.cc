@@ -4,7 +4,7 @@
 // phase.
 #include "scene_tests.h"
 
-#include "output/low_pass.h"
+#include "output/signals.h"
 
 #include <complex>
 

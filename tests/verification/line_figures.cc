@@ -3,7 +3,7 @@
 // formulas of strings.
 #include "scene_tests.h"
 
-#include "output/low_pass.h"
+#include "output/signals.h"
 #include "study/measured_run.h"
 #include "study/sweep.h"
 #include <taut/output/spans.h>

@@ -5,7 +5,7 @@
 // before the window is cut out; impulse and open time as sums over the steps.
 #include "scene_tests.h"
 
-#include "output/low_pass.h"
+#include "output/signals.h"
 
 using namespace verification;
 
