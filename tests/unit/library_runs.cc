@@ -57,7 +57,7 @@ TEST(LibrarySteps, impulses_of_a_load_that_jumps)
                [&]
                {
                  auto body = std::make_unique<library::Chain>("mass", std::vector<double>{mass},
-                                                           std::vector<double>{0.});
+                                                              std::vector<double>{0.});
                  taut::LinearForm form;
                  form.add(0, 1.);
                  body->add_force(form, mass * library::gravity); // no weight
@@ -116,7 +116,7 @@ TEST(LibrarySteps, entries_of_a_scheme_are_read_wherever_they_are)
   const auto scheme = [](const Entries &entries)
   {
     verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
-                                           std::vector<double>{1.});
+                                              std::vector<double>{1.});
     taut::StepperOptions options;
     options.scheme = "layered";
     options.scheme_entries = entries;
@@ -220,7 +220,7 @@ TEST(LibrarySteps, all_observers_finish)
           .string();
   std::string said;
   verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
-                                         std::vector<double>{1.});
+                                            std::vector<double>{1.});
   taut::Stepper stepper(one.system, verification::steps_of(1e-3, taut::Start::given));
   taut::ObservedRun run(stepper, folder);
   for (const char *failure : {"", "first", "", "second", ""})
