@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A sequence of calls of the library: a system with an exact result, and mistakes between the calls.
+// A sequence of calls of the library: a system with an exact result, and mistakes between the
+// calls.
 #ifndef taut_tests_door_script_h
 #define taut_tests_door_script_h
 

@@ -356,7 +356,7 @@ TEST(RigidJoints, gimbal_by_the_page)
   EXPECT_EQ(count(two, "Warning"), 1) << two;
   const std::string parts = log_of(joints("Link kx" + at + "1, 0, 0\nLink ky" + at + "0, 1, 0\n") +
                                        "Body b0: Angular velocity = 2, 0, 0\n"
-                                       "Body b1: Angular velocity = 2, 0, 1.5\n",
+                                       "Body b1: Angular velocity = 2, 0, 2.5\n",
                                    {"Time/End=3"});
   EXPECT_EQ(count(parts, "Warning"), 1) << parts;
   EXPECT_TRUE(has(parts, "other steps. The cause may be the joints")) << parts;

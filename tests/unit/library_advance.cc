@@ -253,7 +253,7 @@ TEST(LibrarySteps, a_damping_material_takes_few_iterations)
 TEST(LibrarySteps, errors_name_options_of_the_library)
 {
   verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
-                                         std::vector<double>{100.});
+                                            std::vector<double>{100.});
   one.system.add(
       taut::Constraint::unilateral("stop", one.system.displacement(0, {}, {0., 1., 0.})));
   const std::string scheme = error_of(

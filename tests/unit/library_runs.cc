@@ -52,7 +52,7 @@ TEST(LibrarySteps, impulses_of_a_load_that_jumps)
                [&]
                {
                  auto body = std::make_unique<library::Chain>("mass", std::vector<double>{mass},
-                                                           std::vector<double>{0.});
+                                                              std::vector<double>{0.});
                  taut::LinearForm form;
                  form.add(0, 1.);
                  body->add_force(form, mass * library::gravity); // no weight
@@ -111,7 +111,7 @@ TEST(LibrarySteps, entries_of_a_scheme_are_read_wherever_they_are)
   const auto scheme = [](const Entries &entries)
   {
     verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
-                                           std::vector<double>{1.});
+                                              std::vector<double>{1.});
     taut::StepperOptions options;
     options.scheme = "layered";
     options.scheme_entries = entries;
@@ -213,7 +213,7 @@ TEST(LibrarySteps, all_observers_finish)
   const verification::Folder folder;
   std::string said;
   verification::OneBody<library::Chain> one("mass", "mass", std::vector<double>{1.},
-                                         std::vector<double>{1.});
+                                            std::vector<double>{1.});
   taut::Stepper stepper(one.system, verification::steps_of(1e-3, taut::Start::given));
   taut::ObservedRun run(stepper, folder.path.string());
   for (const char *failure : {"", "first", "", "second", ""})

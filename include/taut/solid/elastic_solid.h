@@ -4,8 +4,8 @@
 
 #include <taut/solid/solid_conditions.h>
 #include <taut/solid/solid_mesh.h>
-#include <taut/substructure/fe_body.h>
 #include <taut/substructure/body_traits.h>
+#include <taut/substructure/fe_body.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
