@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "output/signals.h"
 #include "output/reactions.h"
+#include "output/signals.h"
 #include <taut/output/support_figures.h>
 
 #include <algorithm>

@@ -111,11 +111,7 @@ namespace taut
       }
       throw;
     }
-    processes.agree(
-        [&]
-        {
-          finish(observed->signal() != 0);
-        });
+    processes.agree([&] { finish(observed->signal() != 0); });
     observed->report(log);
     log << "Results in " << output.folder << '\n';
     say_how_it_ended();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/turning_at_rest.h"
 #include "time/static_step.h"
+#include "time/turning_at_rest.h"
 
 #include "base/newton_search.h"
 #include "base/text.h"

@@ -9,7 +9,6 @@ namespace
   using namespace verification;
   using namespace taut;
 
-
   /// A rope hangs from the origin with a mass that is thrown up.
   const std::string thrown_up = R"(Generator = network; Gravity = 0, -9.81; Start = given
 Body rope: Type = cable; From = 0, 0; To = 0, -1; Unstressed length = 1; Axial stiffness = 1e5

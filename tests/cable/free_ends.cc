@@ -46,7 +46,8 @@ TEST(FreeEnds, hang_straight_down)
                           middle = places(entries, rope_length / 2.).back();
         EXPECT_NEAR(end.y, -stretched, 1e-9);
         EXPECT_NEAR(end.x, 0., 1e-6);
-        EXPECT_NEAR(middle.y, -(rope_length / 2. + w * rope_length * rope_length * 3. / 8. / EA), 1e-9);
+        EXPECT_NEAR(middle.y, -(rope_length / 2. + w * rope_length * rope_length * 3. / 8. / EA),
+                    1e-9);
       }
   const Coordinates other =
       places({"Body rope/Held ends=to", "Body rope/From=0, -9", "Body rope/To=0, 0"}, 0.).back();

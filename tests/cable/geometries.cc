@@ -13,7 +13,6 @@ namespace
   using namespace verification;
   using namespace taut;
 
-
   std::vector<double> frequencies(const Substructure &body, const unsigned int n)
   {
     const std::vector<unsigned int> &held = body.constrained_dofs();

@@ -12,8 +12,7 @@ namespace
   using namespace taut;
 
   constexpr std::size_t n_droppers = 6;
-  constexpr double unit = 59.88 / 12.,
-                   lengths[n_droppers] = {.99, .69, .54, .54, .69, .99};
+  constexpr double unit = 59.88 / 12., lengths[n_droppers] = {.99, .69, .54, .54, .69, .99};
   /// Where a dropper is in the list of links, whose sections have two each.
   constexpr std::size_t link_of[n_droppers] = {0, 2, 4, 5, 3, 1};
 

@@ -15,7 +15,6 @@ namespace
   using namespace verification;
   using namespace taut;
 
-
   /// A cable that starts from its shape turned about the x axis, and moves through large angles.
   class TurnedCable : public Cable
   {

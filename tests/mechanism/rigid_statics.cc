@@ -12,7 +12,6 @@ namespace
   using namespace mechanism;
   using namespace taut;
 
-
   RigidBodyData bar(const double angle)
   {
     RigidBodyData data;

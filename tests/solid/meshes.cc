@@ -70,11 +70,11 @@ namespace
   double stress_beside_hole(const int local_refinements)
   {
     const Sides sides = sides_at_rest(scene("Young's modulus = 1e9; Degree = 2; Plane state = "
-                                          "stress; Fixed boundaries = 0; Traction = 1: 1e6, 0",
-                                          "Generator = plate_with_a_hole; Arguments = 1 : 2 : 8, "
-                                          "8, 38, 38 : 0, 0; Local refinements = " +
-                                              std::to_string(local_refinements) +
-                                              "; Refine where = 1 + 4/2^t - sqrt(x^2 + y^2)"));
+                                            "stress; Fixed boundaries = 0; Traction = 1: 1e6, 0",
+                                            "Generator = plate_with_a_hole; Arguments = 1 : 2 : 8, "
+                                            "8, 38, 38 : 0, 0; Local refinements = " +
+                                                std::to_string(local_refinements) +
+                                                "; Refine where = 1 + 4/2^t - sqrt(x^2 + y^2)"));
     // The stress along the free rim is E times its strain, from the nodes beside its top.
     std::pair<double, double> left = {-1., 0.}, right = {1., 0.}; // x and u
     for (std::size_t i = 0; i < sides.points.size(); ++i)
@@ -99,8 +99,8 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
     {
       const Sides sides =
           sides_at_rest(scene(two_materials + "; Degree = " + degree +
-                                "; Symmetry boundaries = 11, 13; Traction = 12: 1e6, 0",
-                            "File = " + mesh_file(name)));
+                                  "; Symmetry boundaries = 11, 13; Traction = 12: 1e6, 0",
+                              "File = " + mesh_file(name)));
       unsigned int n_right = 0;
       for (std::size_t i = 0; i < sides.points.size(); ++i)
       {

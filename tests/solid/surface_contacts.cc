@@ -75,8 +75,8 @@ namespace
   Hertz cylinder(const int local_refinements)
   {
     const Found found =
-        found_at_rest(scene_file("hertz_cylinder"),
-                    {"Body cylinder/Mesh/Local refinements=" + std::to_string(local_refinements)});
+        found_at_rest(scene_file("hertz_cylinder"), {"Body cylinder/Mesh/Local refinements=" +
+                                                     std::to_string(local_refinements)});
     const double modulus = 1e9 / (1. - .09), force = 2. * found.resultant,
                  a = std::sqrt(4. * force / (M_PI * modulus)),
                  p0 = std::sqrt(force * modulus / M_PI);
@@ -166,7 +166,7 @@ TEST(SurfaceContacts, a_slit_is_pressed_shut)
 Body square: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;
   Displacement = 10: -1e-3*x, 0
 Body square/Mesh: File = )" + mesh.path() +
-                                    R"(
+                                      R"(
 Contact slit: Slave = square: 11; Master = square: 12
 Time: End = 0
 Solver: Interface operator = )" + operator_name);

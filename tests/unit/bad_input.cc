@@ -6,7 +6,6 @@
 
 #include <taut/simulation/simulation.h>
 
-
 namespace
 {
   using namespace verification;

@@ -172,7 +172,7 @@ namespace
   }
 
   std::string error_between(const ContactSurface &slave, const ContactSurface &master,
-                      const double t = 1., const double distance = 0.)
+                            const double t = 1., const double distance = 0.)
   {
     return verification::error_of([&] { mortar_constraints(slave, master, t, distance); });
   }
@@ -187,8 +187,9 @@ namespace
     EXPECT_EQ(error_between(lower, upper), "");
     const auto expect = [](const std::string &text, const std::string &part)
     { EXPECT_TRUE(verification::has(text, part)) << text; };
-    expect(error_between(lower, upper, 1., .1), "within 0.1 m; the smallest distance between them is "
-                                          "about 0.5 m");
+    expect(error_between(lower, upper, 1., .1),
+           "within 0.1 m; the smallest distance between them is "
+           "about 0.5 m");
     expect(error_between(lower, turned), "no face of the first faces the second");
     expect(error_between(lower, beside), "'lower' and 'upper': no face");
     expect(error_between(lower, upper, 0.), "thickness");

@@ -10,7 +10,6 @@
 
 #include <boost/math/interpolators/pchip.hpp>
 
-
 #include <thread>
 
 namespace
@@ -30,10 +29,7 @@ namespace
     }
     ~Tables() override { taut::set_data_folder(""); }
 
-    void write(const std::string &name, const std::string &text) const
-    {
-      folder.write(name, text);
-    }
+    void write(const std::string &name, const std::string &text) const { folder.write(name, text); }
 
     const verification::Folder folder;
   };
@@ -154,16 +150,23 @@ namespace
     EXPECT_PRED2(has, outside,
                  "file 'profile.csv' has 'height' from 0 to 10 and none at 130; the rows have to "
                  "cover what is used");
-    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::position, -1.), "none at -1");
-    EXPECT_PRED2(has, message_of_table("table(profile.csv, width)", V::time), "has no column 'width'");
-    EXPECT_PRED2(has, message_of_table("table(profil.csv, height)", V::time), "cannot read the file");
-    EXPECT_PRED2(has, message_of_table("table(profile.csv)", V::time), "does not name a file and a column");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::position, -1.),
+                 "none at -1");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, width)", V::time),
+                 "has no column 'width'");
+    EXPECT_PRED2(has, message_of_table("table(profil.csv, height)", V::time),
+                 "cannot read the file");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv)", V::time),
+                 "does not name a file and a column");
     EXPECT_PRED2(has, message_of_table("table(profile.csv, height", V::time), "never closed");
-    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::both), "one of s, t, as in");
-    EXPECT_PRED2(has, message_of_table("table(profile.csv, height, t)", V::position), "'t' is no word");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height)", V::both),
+                 "one of s, t, as in");
+    EXPECT_PRED2(has, message_of_table("table(profile.csv, height, t)", V::position),
+                 "'t' is no word");
     EXPECT_PRED2(has, message_of_table("table(one.csv, v)", V::time), "has 1 row; a table takes 2");
     EXPECT_PRED2(has, message_of_table("table(three.csv, v, cubic)", V::time), "takes 4 and more");
-    EXPECT_PRED2(has, message_of_table("table(twice.csv, v)", V::time), "line 4: 's' is 1 after 1; sort");
+    EXPECT_PRED2(has, message_of_table("table(twice.csv, v)", V::time),
+                 "line 4: 's' is 1 after 1; sort");
     EXPECT_PRED2(has, message_of_table("table(infinite.csv, v)", V::time), "line 3: 'inf'");
     EXPECT_PRED2(has, message_of_table("profile.csv", V::time), "'table(FILE.csv, column)'");
   }

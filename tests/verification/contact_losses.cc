@@ -85,8 +85,8 @@ TEST(ContactLosses, warn_from_one_percent_and_fail_from_ten)
                         Case{8e5, .0483, true, true, true}, Case{3e6, .0472, true, true, false}})
   {
     const double fall_time = std::sqrt(2. * c.height / g);
-    const Fall fall = fall_of(falling_mass(c.height, c.stiffness, 1e-3,
-                                       std::ceil(1.9e3 * fall_time) * 1e-3, "generalised-alpha"));
+    const Fall fall = fall_of(falling_mass(
+        c.height, c.stiffness, 1e-3, std::ceil(1.9e3 * fall_time) * 1e-3, "generalised-alpha"));
     std::ostringstream of_case;
     of_case << "drop of " << c.height << " m on " << c.stiffness << " N/m, generalised-alpha";
     const std::string name = of_case.str();
@@ -207,7 +207,7 @@ Mass pile: Position = -2.34, -9; Motions = y; Mass = 1
 Link floor: Type = stop; From = ground; To = pile; Direction = 0, 1; Gap = 0
 Link slack: Type = dropper; From = bob; To = pile; Turns = true; Length = 50
 )",
-                        {"Time.End=45"});
+                            {"Time.End=45"});
   EXPECT_GT(late.summary.momentum, .95 * m * along);
   EXPECT_LT(late.summary.momentum, taut::ContactMeasures::suspicious_momentum * mass * 1.25 * busy);
   figure("the same after 40 s, in which a mass of its group lies on a floor",

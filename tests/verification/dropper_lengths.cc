@@ -105,8 +105,7 @@ Time: Step = 1e-3; End = 0; Scheme = backward Euler
 // / 4) / T'.
 TEST(DropperLengths, of_a_line_as_built_stay_where_the_tension_changes)
 {
-  const double k = 1e5, N = 20. * g,
-               length = 1.2 - (.8 * g * 200. + 10. * N) / 12000. - N / k,
+  const double k = 1e5, N = 20. * g, length = 1.2 - (.8 * g * 200. + 10. * N) / 12000. - N / k,
                kept = (1.2 - length - .8 * g * 200. / 11000. + g * 200. / 10000.) /
                       (1. / k + 10. / 11000. + 10. / 10000.);
   Session built(one_dropper());

@@ -50,7 +50,7 @@ namespace
 
   /// 20 s of a careless pendulum.
   Outcome outcome_of_swing(const double part, const bool has_bystander,
-                taut::StepperOptions options = taut::StepperOptions())
+                           taut::StepperOptions options = taut::StepperOptions())
   {
     taut::System system;
     if (has_bystander)

@@ -83,8 +83,7 @@ namespace
   /// Exact motion of prm/oscillator_with_stop.prm.
   struct Oscillator
   {
-    const double a = .1, w1 = 20., w2 = std::sqrt(4000.),
-                 period = pi / w1 + pi / w2;
+    const double a = .1, w1 = 20., w2 = std::sqrt(4000.), period = pi / w1 + pi / w2;
     double u(double t) const
     {
       // Quarter wave down, half wave on the stop, half wave up, ...: the phase counts from the

@@ -116,8 +116,8 @@ TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
       has(error("span,droppers,pre-sag\n40,10 20,0.1\n,,\n"), "1 values in 'pre-sag' for 2"));
   EXPECT_TRUE(has(error("span,droppers\n40,10 20\n40,\n"), "line 3: the last mast has no span"));
   EXPECT_TRUE(has(error("span,droppers\n"), "has no rows"));
-  EXPECT_TRUE(
-      has(error_of([] { Session(bare_strings, {"Catenary/Line=none.csv"}); }), "cannot read the file"));
+  EXPECT_TRUE(has(error_of([] { Session(bare_strings, {"Catenary/Line=none.csv"}); }),
+                  "cannot read the file"));
 }
 
 namespace
@@ -138,7 +138,7 @@ TEST(LinesAsBuilt, values_of_another_unit_have_warnings_as_they_were_read)
                     droppers = "Catenary/Droppers: Positions = 10, 20, 30; Lengths = ";
   EXPECT_FALSE(has(checked(bare_strings), unit));
   EXPECT_FALSE(has(checked(bare_strings + "Catenary: Encumbrance = 0.1, 10\n"
-                                     "Catenary/Contact wire: Stagger = 2\n"),
+                                          "Catenary/Contact wire: Stagger = 2\n"),
                    unit));
   EXPECT_TRUE(has(checked(bare_strings + "Catenary: Encumbrance = 1.4, 1400; Begin = 100\n"),
                   "Warning: Catenary: a system height (encumbrance) of 1400 m at x = 140 m is not "
@@ -185,10 +185,11 @@ TEST(LinesAsBuilt, entries_beside_a_table_are_said_not_to_be_used)
       bare_strings + "Catenary/Droppers: Positions = 7, 8\nCatenary/Contact wire: Stagger = 0.2\n",
       {"Catenary/Line=" + table.path});
   const std::string beside = " (beside Line = " + table.path + ")";
-  EXPECT_FALSE(has(checked(bare_strings + "Catenary: Point masses = clamp\nCatenary/Point mass clamp: "
-                                     "Positions = 7; Mass = 1\n",
-                           {"Catenary/Line=" + table.path}),
-                   "not used: Catenary/Point mass"));
+  EXPECT_FALSE(
+      has(checked(bare_strings + "Catenary: Point masses = clamp\nCatenary/Point mass clamp: "
+                                 "Positions = 7; Mass = 1\n",
+                  {"Catenary/Line=" + table.path}),
+          "not used: Catenary/Point mass"));
   for (const std::string entry :
        {"Catenary/Span length = 40", "Catenary/Number of spans = 1",
         "Catenary/Droppers/Positions = 7, 8", "Catenary/Contact wire/Stagger = 0.2"})
@@ -261,7 +262,7 @@ TEST(LinesAsBuilt, point_masses_hang_at_their_places)
 {
   const double T = 10000., m = 3.;
   run_scene(bare_strings + "Catenary: Point masses = insulator; Begin = 100\n"
-                      "Catenary/Point mass insulator: Positions = 115; Mass = 3\n",
+                           "Catenary/Point mass insulator: Positions = 115; Mass = 3\n",
             {},
             [&](const taut::StepView &view)
             {
@@ -342,9 +343,10 @@ TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
   EXPECT_EQ(found->stiffness, 4e5);
   EXPECT_EQ(found->damping, 300.);
   EXPECT_TRUE(has(error_of(
-                      [] {
+                      []
+                      {
                         Session(bare_strings, {"Catenary/Number of spans=3",
-                                          "Catenary/Supports/Messenger damping=300"});
+                                               "Catenary/Supports/Messenger damping=300"});
                       }),
                   "a rigid support has none"));
 }
@@ -536,7 +538,7 @@ TEST(LinesAsBuilt, the_table_of_droppers_has_what_a_fitter_needs)
 {
   // The contact wire hangs between droppers as a chain of parabolas at one height.
   Session session(bare_strings, {"Catenary/Span lengths=40, 50",
-                            "Catenary/Droppers/Positions=10, 20, 30; 10, 20, 30, 40"});
+                                 "Catenary/Droppers/Positions=10, 20, 30; 10, 20, 30, 40"});
   session.run();
   const std::string path = session.folder() + "/droppers.csv";
   const auto table = read_table(path);

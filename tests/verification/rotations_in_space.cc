@@ -33,8 +33,8 @@ namespace
                                        {"side", "lateral"},
                                        {"side slope", "lateral slope"}})
       scene << "Support " << name << ": Wire = beam; Positions = 0; Motion = " << motion << "\n";
-    scene << "Load moment: On = beam @ " << beam_length << "; Rotational = true; Axis = " << text(about)
-          << "; Magnitude = " << moment << "\n";
+    scene << "Load moment: On = beam @ " << beam_length
+          << "; Rotational = true; Axis = " << text(about) << "; Magnitude = " << moment << "\n";
     return scene.str();
   }
 

@@ -91,7 +91,8 @@ TEST(SimultaneousImpacts, need_a_body_that_shares_them)
 {
   const std::string floor =
       "Link floor: Type = stop; From = ground; To = a; Direction = 0, 1; Gap = 0.01\n";
-  const Outcome outcome = outcome_of(cradle(.01) + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
+  const Outcome outcome =
+      outcome_of(cradle(.01) + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
   expect_velocities(outcome, {0., 0., 0., 0., 1.});
   EXPECT_FALSE(has(outcome.log, "Impacts:")) << outcome.log;
 }

@@ -12,7 +12,6 @@ namespace turning
   using taut::Coordinates;
   using verification::has, verification::number, verification::operator+, verification::Overrides;
 
-
   /// What a step ends with.
   struct Motion
   {

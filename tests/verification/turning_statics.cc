@@ -181,13 +181,14 @@ TEST(TurningStatics, what_cannot_turn_is_refused)
   expect(error_at_rest(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");
   for (const char *const conditions : {"velocities", "gaps"})
     expect(error_at_rest(good, {"Time/Scheme=Moreau-Jean",
-                           "Time/Moreau-Jean/Conditions=" + std::string(conditions),
-                           "Time/Moreau-Jean/Theta=1"}),
+                                "Time/Moreau-Jean/Conditions=" + std::string(conditions),
+                                "Time/Moreau-Jean/Theta=1"}),
            "its length would drift");
-  expect(error_at_rest(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
-                         "Network/Spring x/To=m0", "Network/Spring x/Direction=1, 0",
-                         "Network/Spring x/Stiffness=1", "Network/Spring y/To=m0",
-                         "Network/Spring y/Stiffness=1", "Network/Spring z/To=m0",
-                         "Network/Spring z/Direction=0, 0, 1", "Network/Spring z/Stiffness=1"}),
-         "no mass");
+  expect(
+      error_at_rest(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
+                           "Network/Spring x/To=m0", "Network/Spring x/Direction=1, 0",
+                           "Network/Spring x/Stiffness=1", "Network/Spring y/To=m0",
+                           "Network/Spring y/Stiffness=1", "Network/Spring z/To=m0",
+                           "Network/Spring z/Direction=0, 0, 1", "Network/Spring z/Stiffness=1"}),
+      "no mass");
 }
