@@ -4,6 +4,7 @@
 
 #include <taut/base/coordinates.h>
 
+#include <cctype>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -33,6 +34,14 @@ namespace taut
     const std::size_t first = text.find_first_not_of(" \t\r"),
                       last = text.find_last_not_of(" \t\r");
     return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+
+  /// With a capital letter at its beginning.
+  inline std::string capitalised(std::string text)
+  {
+    if (!text.empty())
+      text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
   }
 
   /// Parts between separators, without spaces around them.

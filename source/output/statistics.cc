@@ -35,7 +35,7 @@ namespace taut
         link.dropper.keeps_reversals = link.is_dropper && parameters.has_table("cycles");
       }
     for (const Probe &probe : scene.probes)
-      probes.push_back({probe.name, probe.unit(), probe.quantity == Probe::Quantity::displacement});
+      probes.push_back({probe.name, probe.unit()});
   }
 
   void Statistics::find_sags(const Scene &scene, const SceneBodies &bodies, const BodyVectors &rest)
@@ -240,94 +240,105 @@ namespace taut
     return result;
   }
 
-  std::vector<Statistics::NamedQuantity> Statistics::named_figures(const Contact &contact) const
+  std::vector<double> Statistics::expected_range(const std::string &quantity) const
   {
-    const std::string &name = contact.of.name;
+    const auto range = parameters.expected.find(quantity);
+    return range != parameters.expected.end() && range->second.size() == 2 ? range->second
+                                                                           : std::vector<double>();
+  }
+
+  std::vector<Statistics::Figure> Statistics::figures_of(const ContactQuantities &f,
+                                                         const bool compared) const
+  {
+    const Moments &m = f.filtered, &r = f.raw;
+    std::vector<Figure> list = {
+        {"mean", "N", m.mean, r.mean},
+        {"standard deviation", "N", m.deviation, r.deviation},
+        {"mean + 3 standard deviations", "N", m.mean + 3. * m.deviation, r.mean + 3. * r.deviation},
+        {"mean - 3 standard deviations", "N", m.mean - 3. * m.deviation, r.mean - 3. * r.deviation},
+        {"maximum", "N", m.maximum, r.maximum},
+        {"minimum", "N", m.minimum, r.minimum},
+        {"standard deviation over mean", "1", m.mean > 0. ? m.deviation / m.mean : 0.},
+        {"contact loss", "share", f.loss}};
+    if (!compared)
+      return list;
+    for (Figure &figure : list)
+      figure.expected = expected_range(capitalised(figure.name));
+    if (std::vector<double> range = parameters.mean_force_range(f.speed); !range.empty())
+      list.push_back({"mean at this speed", "N", m.mean, std::nan(""), std::move(range)});
+    return list;
+  }
+
+  std::vector<Statistics::Figure> Statistics::named_figures(const Contact &contact) const
+  {
     const ContactFigures f = figures(contact);
-    std::vector<NamedQuantity> list;
+    std::vector<Figure> list;
     for (const ContactFigures::Band &band : f.bands)
-      list.push_back({name, to_text("standard deviation ", band.from, " to ", band.to, " Hz"),
-                      band.is_resolved ? band.deviation : std::numeric_limits<double>::quiet_NaN(),
-                      "N"});
+      list.push_back(
+          {to_text("standard deviation ", band.from, " to ", band.to, " Hz"), "N",
+           band.is_resolved ? band.deviation : std::numeric_limits<double>::quiet_NaN()});
     for (const ContactFigures::Losses &l : f.losses)
     {
       const std::string duration = to_text(1e3 * l.longer_than, " ms");
-      list.push_back({name, "losses over " + duration, static_cast<double>(l.number), "1"});
-      list.push_back({name, "share of losses over " + duration, l.share, "1"});
+      list.push_back({"losses over " + duration, "1", static_cast<double>(l.number)});
+      list.push_back({"share of losses over " + duration, "share", l.share});
     }
     if (contact.has_height)
-      list.push_back({name, "height range", f.height_range, "m"});
+      list.push_back({"height range", "m", f.height_range});
     return list;
   }
 
-  std::vector<Statistics::NamedQuantity> Statistics::named(const ContactSum &sum) const
-  {
-    const ContactQuantities f = measure(sum);
-    return {{sum.name, "mean", f.filtered.mean, "N"},
-            {sum.name, "standard deviation", f.filtered.deviation, "N"},
-            {sum.name, "maximum", f.filtered.maximum, "N"},
-            {sum.name, "minimum", f.filtered.minimum, "N"},
-            {sum.name, "contact loss", f.loss, "1"}};
-  }
-
-  std::vector<Statistics::NamedQuantity> Statistics::named(const LinkQuantities &f)
+  std::vector<Statistics::Figure> Statistics::figures_of(const LinkQuantities &f)
   {
     const std::string force = f.rotates ? "N m" : "N";
-    std::vector<NamedQuantity> list = {
-        {f.name, "open time", f.open_time, "s"},
-        {f.name, "closed time", f.closed_time, "s"},
-        {f.name, "largest force", f.largest_force, force},
-        {f.name, "impulse", f.impulse, force + " s"},
-        {f.name, "largest impulse", f.largest_impulse, force + " s"}};
+    std::vector<Figure> list = {{"open time", "s", f.open_time},
+                                {"closed time", "s", f.closed_time},
+                                {"largest force", force, f.largest_force},
+                                {"impulse", force + " s", f.impulse},
+                                {"largest impulse", force + " s", f.largest_impulse}};
     if (f.is_dropper)
-      list.insert(list.end(),
-                  {{f.name, "smallest force", f.dropper.least, force},
-                   {f.name, "mean force", f.dropper.mean, force},
-                   {f.name, "standard deviation of the force", f.dropper.deviation(), force},
-                   {f.name, "slackenings", static_cast<double>(f.dropper.n_slackenings), "1"}});
+      list.insert(list.end(), {{"smallest force", force, f.dropper.least},
+                               {"mean force", force, f.dropper.mean},
+                               {"standard deviation of the force", force, f.dropper.deviation()},
+                               {"slackenings", "1", static_cast<double>(f.dropper.n_slackenings)}});
     return list;
   }
 
-  std::vector<Statistics::NamedQuantity> Statistics::named_quantities() const
+  std::vector<Statistics::Figure> Statistics::figures_of(const ProbeQuantities &probe) const
+  {
+    return {{"largest", probe.unit, probe.largest, std::nan(""),
+             probe.unit == "m" && parameters.has_uplift(probe.name) ? expected_range("Uplift")
+                                                                    : std::vector<double>()},
+            {"smallest", probe.unit, probe.smallest},
+            {"last", probe.unit, probe.last}};
+  }
+
+  std::vector<NamedQuantity> Statistics::named_quantities() const
   {
     std::vector<NamedQuantity> list;
+    const auto add = [&](const std::string &item, const std::vector<Figure> &figures)
+    {
+      for (const Figure &figure : figures)
+        list.push_back(
+            {item, figure.name, figure.value, figure.unit == "share" ? "1" : figure.unit});
+    };
     for (const Contact &contact : contacts)
     {
-      const ContactQuantities f = measure(contact);
-      const Moments &m = f.filtered;
-      const double over_mean = m.mean > 0. ? m.deviation / m.mean : 0.;
-      list.insert(list.end(), {{contact.of.name, "mean", m.mean, "N"},
-                               {contact.of.name, "standard deviation", m.deviation, "N"},
-                               {contact.of.name, "maximum", m.maximum, "N"},
-                               {contact.of.name, "minimum", m.minimum, "N"},
-                               {contact.of.name, "contact loss", f.loss, "1"},
-                               {contact.of.name, "standard deviation over mean", over_mean, "1"}});
-      const std::vector<NamedQuantity> others = named_figures(contact);
-      list.insert(list.end(), others.begin(), others.end());
+      add(contact.of.name, figures_of(measure(contact), false));
+      add(contact.of.name, named_figures(contact));
       for (std::size_t i = 0; contact.of.is_strip && i < contact.wires.size(); ++i)
       {
-        const ContactQuantities share = measure(contact, contact.wires[i]);
-        list.push_back({contact.of.names[i], "mean share", share.raw.mean, "N"});
-        list.push_back({contact.of.names[i], "largest share", share.raw.maximum, "N"});
+        const Moments share = measure(contact, contact.wires[i]).raw;
+        add(contact.of.names[i],
+            {{"mean share", "N", share.mean}, {"largest share", "N", share.maximum}});
       }
     }
     for (const ContactSum &sum : sums)
-    {
-      const std::vector<NamedQuantity> own = named(sum);
-      list.insert(list.end(), own.begin(), own.end());
-    }
-    for (const LinkQuantities &f : links)
-    {
-      const std::vector<NamedQuantity> own = named(f);
-      list.insert(list.end(), own.begin(), own.end());
-    }
+      add(sum.name, figures_of(measure(sum), false));
+    for (const LinkQuantities &link : links)
+      add(link.name, figures_of(link));
     for (const ProbeQuantities &probe : probes)
-    {
-      const std::string &unit = probe.unit;
-      list.insert(list.end(), {{probe.name, "largest", probe.largest, unit},
-                               {probe.name, "smallest", probe.smallest, unit},
-                               {probe.name, "last", probe.last, unit}});
-    }
+      add(probe.name, figures_of(probe));
     const std::vector<NamedQuantity> reactions = supports.named();
     list.insert(list.end(), reactions.begin(), reactions.end());
     return list;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <cmath>
 #include <map>
 
 namespace taut
@@ -39,23 +40,6 @@ namespace taut
     {
       return quantity(std::stod(time_text(value)), "s");
     }
-
-    /// @p rows is a table of Statistics.
-    template <typename Rows>
-    json quantities_of(const Rows &rows, const bool judged)
-    {
-      json result = json::object();
-      for (const auto &row : rows)
-      {
-        json &entry = result[identifier(row.name)] = quantity(row.value, row.unit);
-        if (row.expected.empty() || !judged)
-          continue;
-        const double low = row.expected[0], high = row.expected[1];
-        entry["expected"] = {low, high};
-        entry["inside"] = row.value >= low && row.value <= high;
-      }
-      return result;
-    }
   } // namespace
 
   class Statistics::Json
@@ -78,12 +62,7 @@ namespace taut
         entry["filter_frequency"] = {{"value", all.parameters.filter_frequency},
                                      {"unit", "Hz"},
                                      {"resolved", f.is_filtered}};
-      entry["raw"] = quantities_of(all.table(f, true), false);
-      json evaluated = quantities_of(all.table(f, false), f.are_judged());
-      entry["contact_loss"] = evaluated["contact_loss"];
-      evaluated.erase("contact_loss");
-      if (f.are_judged())
-        entry[f.is_filtered ? "filtered" : "raw"] = evaluated;
+      add_force(all.figures_of(f, true), f.are_judged(), f.is_filtered, entry);
       if (const std::string source = all.parameters.source_of_largest_mean(); !source.empty())
         entry["largest_mean_force"] = {{"supply", all.parameters.supply}, {"source", source}};
       add_figures(all.figures(contact), entry);
@@ -92,18 +71,43 @@ namespace taut
       return entry;
     }
 
+    /// Figures by identifiers, or those of the unfiltered force.
+    static json of(const std::vector<Figure> &figures, const bool judged, const bool raw = false)
+    {
+      json result = json::object();
+      for (const Figure &figure : figures)
+      {
+        if (raw && std::isnan(figure.raw))
+          continue;
+        json &entry = result[identifier(figure.name)] =
+            quantity(raw ? figure.raw : figure.shown(), figure.unit_shown());
+        if (figure.expected.empty() || !judged || raw)
+          continue;
+        const double low = figure.expected[0], high = figure.expected[1];
+        entry["expected"] = {low, high};
+        entry["inside"] = figure.shown() >= low && figure.shown() <= high;
+      }
+      return result;
+    }
+
+    static void add_force(const std::vector<Figure> &figures, const bool judged,
+                          const bool is_filtered, json &entry)
+    {
+      entry["raw"] = of(figures, false, true);
+      json evaluated = of(figures, judged);
+      entry["contact_loss"] = evaluated["contact_loss"];
+      evaluated.erase("contact_loss");
+      if (judged)
+        entry[is_filtered ? "filtered" : "raw"] = evaluated;
+    }
+
     static json of(const Statistics &all, const ContactSum &sum)
     {
       const ContactQuantities f = all.measure(sum);
       json entry = {{"of", sum.of}, {"samples", f.n_samples}};
       if (f.n_samples == 0)
         return entry;
-      json evaluated = quantities_of(table_of_sum(f, false), false);
-      entry["raw"] = quantities_of(table_of_sum(f, true), false);
-      entry["contact_loss"] = evaluated["contact_loss"];
-      evaluated.erase("contact_loss");
-      if (f.is_filtered)
-        entry["filtered"] = evaluated;
+      add_force(all.figures_of(f, false), f.is_filtered, true, entry);
       return entry;
     }
 
@@ -203,7 +207,7 @@ namespace taut
       for (std::size_t i = 0; i < contact.wires.size(); ++i)
       {
         const ContactQuantities f = all.measure(contact, contact.wires[i]);
-        json &entry = result[contact.of.names[i]] = quantities_of(all.table(f, true), false);
+        json &entry = result[contact.of.names[i]] = of(all.figures_of(f, false), false, true);
         entry["not_touched"] = quantity(100. * f.loss, "%");
       }
       return result;
@@ -260,14 +264,10 @@ namespace taut
       of_sums[sum.name] = Json::of(*this, sum);
     json &of_probes = root["probes"] = json::object();
     for (const ProbeQuantities &probe : probes)
-      of_probes[probe.name] = quantities_of(table(probe), true);
+      of_probes[probe.name] = Json::of(figures_of(probe), true);
     json &of_links = root["links"] = json::object();
     for (const LinkQuantities &link : links)
-    {
-      json &entry = of_links[link.name] = json::object();
-      for (const NamedQuantity &q : named(link))
-        entry[identifier(q.quantity)] = quantity(q.value, q.unit);
-    }
+      of_links[link.name] = Json::of(figures_of(link), false);
     json &of_supports = root["supports"] = json::object();
     for (const SupportFigures::Figures &support : supports.of_supports())
       of_supports[support.name] = Json::of(support);

@@ -69,79 +69,28 @@ namespace taut
     }
   } // namespace
 
-  std::vector<double> Statistics::expected_range(const std::string &quantity) const
-  {
-    const auto range = parameters.expected.find(quantity);
-    return range != parameters.expected.end() && range->second.size() == 2 ? range->second
-                                                                           : std::vector<double>();
-  }
-
-  std::vector<Statistics::Quantity> Statistics::table(const ContactQuantities &f,
-                                                      const bool raw) const
-  {
-    const Moments &m = raw ? f.raw : f.filtered;
-    std::vector<Quantity> rows = {{"Mean", "N", m.mean},
-                                  {"Standard deviation", "N", m.deviation},
-                                  {"Mean + 3 standard deviations", "N", m.mean + 3. * m.deviation},
-                                  {"Mean - 3 standard deviations", "N", m.mean - 3. * m.deviation},
-                                  {"Maximum", "N", m.maximum},
-                                  {"Minimum", "N", m.minimum}};
-    if (raw)
-      return rows;
-    rows.push_back({"Standard deviation over mean", "1", m.mean > 0. ? m.deviation / m.mean : 0.});
-    rows.push_back({"Contact loss", "%", 100. * f.loss});
-    for (Quantity &row : rows)
-      row.expected = expected_range(row.name);
-    if (std::vector<double> range = parameters.mean_force_range(f.speed); !range.empty())
-      rows.push_back({"Mean at this speed", "N", m.mean, std::move(range)});
-    return rows;
-  }
-
-  std::vector<Statistics::Quantity> Statistics::table_of_sum(const ContactQuantities &f,
-                                                             const bool raw)
-  {
-    const Moments &m = raw ? f.raw : f.filtered;
-    std::vector<Quantity> rows = {{"Mean", "N", m.mean},
-                                  {"Standard deviation", "N", m.deviation},
-                                  {"Maximum", "N", m.maximum},
-                                  {"Minimum", "N", m.minimum}};
-    if (!raw)
-      rows.push_back({"Contact loss", "%", 100. * f.loss});
-    return rows;
-  }
-
-  std::vector<Statistics::Quantity> Statistics::table(const ProbeQuantities &probe) const
-  {
-    const double scale = probe.is_displacement ? 1e3 : 1.;
-    const std::string unit = (probe.is_displacement ? "m" : "") + probe.unit;
-    return {{"Largest", unit, scale * probe.largest,
-             unit == "mm" && parameters.has_uplift(probe.name) ? expected_range("Uplift")
-                                                               : std::vector<double>()},
-            {"Smallest", unit, scale * probe.smallest}};
-  }
-
   Statistics::Verdict Statistics::verdict() const
   {
     Verdict result;
-    const auto judge = [&](const std::vector<Quantity> &quantities)
+    const auto judge = [&](const std::vector<Figure> &figures)
     {
-      for (const Quantity &quantity : quantities)
-        if (!quantity.expected.empty())
-          ++(is_inside(quantity.value, quantity.expected) ? result.n_inside : result.n_outside);
+      for (const Figure &figure : figures)
+        if (!figure.expected.empty())
+          ++(is_inside(figure.shown(), figure.expected) ? result.n_inside : result.n_outside);
     };
     for (const Contact &contact : contacts)
     {
       const ContactQuantities f = measure(contact);
-      const std::vector<Quantity> rows = table(f, false);
+      const std::vector<Figure> rows = figures_of(f, true);
       const bool expected = std::any_of(rows.begin(), rows.end(),
-                                        [](const Quantity &r) { return !r.expected.empty(); });
+                                        [](const Figure &r) { return !r.expected.empty(); });
       if (f.are_judged())
         judge(rows);
       if (expected && !(f.are_judged() && f.is_complete))
         result.is_complete = false;
     }
     for (const ProbeQuantities &probe : probes)
-      judge(table(probe));
+      judge(figures_of(probe));
     return result;
   }
 
@@ -183,17 +132,17 @@ namespace taut
       out << "  no sample in the window\n";
   }
 
-  void Statistics::print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
-                              const double size, const bool judged, std::ostream &out)
+  void Statistics::print_rows(const std::vector<Figure> &rows, const double size, const bool judged,
+                              std::ostream &out)
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const Figure &row : rows)
     {
-      const double own_size = rows[i].unit == "N" ? size : 1.;
-      out << "  " << std::left << std::setw(36) << rows[i].name << std::right << std::setw(10)
-          << shown(rows[i].value, own_size) << ' ' << std::left << std::setw(3)
-          << (rows[i].unit == "1" ? "" : rows[i].unit) << std::right << std::setw(12)
-          << (i < raw.size() ? shown(raw[i].value, own_size) : "")
-          << comparison(rows[i].value, rows[i].expected, judged, own_size) << '\n';
+      const double own_size = row.unit == "N" ? size : 1.;
+      out << "  " << std::left << std::setw(36) << capitalised(row.name) << std::right
+          << std::setw(10) << shown(row.shown(), own_size) << ' ' << std::left << std::setw(3)
+          << (row.unit == "1" ? "" : row.unit_shown()) << std::right << std::setw(12)
+          << (std::isnan(row.raw) ? "" : shown(row.raw, own_size))
+          << comparison(row.shown(), row.expected, judged, own_size) << '\n';
     }
   }
 
@@ -203,7 +152,7 @@ namespace taut
     print_head("'" + contact.of.name + "'", f, out);
     if (f.n_samples == 0)
       return;
-    print_rows(table(f, false), table(f, true), size_of(f), f.are_judged(), out);
+    print_rows(figures_of(f, true), size_of(f), f.are_judged(), out);
     if (const std::string source = parameters.source_of_largest_mean(); !source.empty())
       out << "  Largest mean at this speed, " << parameters.supply << ": " << source << '\n';
     print_figures(contact, f, out);
@@ -255,7 +204,7 @@ namespace taut
       of += (i > 0 ? " + '" : " '") + sum.of[i] + "'";
     print_head(of, f, out);
     if (f.n_samples > 0)
-      print_rows(table_of_sum(f, false), table_of_sum(f, true), size_of(f), false, out);
+      print_rows(figures_of(f, false), size_of(f), false, out);
   }
 
   void Statistics::print_links(std::ostream &out) const
@@ -287,24 +236,25 @@ namespace taut
       print_contact(contact, out);
     for (const ContactSum &sum : sums)
       print_sum(sum, out);
-    const bool has_rates = std::any_of(probes.begin(), probes.end(),
-                                       [](const ProbeQuantities &p) { return !p.is_displacement; });
+    const bool has_rates =
+        std::any_of(probes.begin(), probes.end(),
+                    [](const ProbeQuantities &p) { return p.unit.find('/') != std::string::npos; });
     if (!probes.empty())
       out << (has_rates ? "Probes" : "Displacement of the probes")
           << " along their directions: largest, smallest\n";
     for (const ProbeQuantities &probe : probes)
     {
-      const std::vector<Quantity> rows = table(probe);
+      const std::vector<Figure> rows = figures_of(probe);
       double size = 0.;
       for (const ProbeQuantities &other : probes)
-        for (const Quantity &row : table(other))
+        for (const Figure &row : figures_of(other))
           if (row.unit == rows[0].unit)
-            size = std::max(size, std::fabs(row.value));
+            size = std::max(size, std::fabs(row.shown()));
       out << "  " << std::left << std::setw(36) << probe.name << std::right << std::setw(10)
-          << shown(rows[0].value, size) << std::setw(10) << shown(rows[1].value, size) << ' '
-          << std::left << std::setw(4) << rows[0].unit << std::right;
+          << shown(rows[0].shown(), size) << std::setw(10) << shown(rows[1].shown(), size) << ' '
+          << std::left << std::setw(4) << rows[0].unit_shown() << std::right;
       if (!rows[0].expected.empty())
-        out << "    " << comparison(rows[0].value, rows[0].expected, true, size);
+        out << "    " << comparison(rows[0].shown(), rows[0].expected, true, size);
       out << '\n';
     }
     print_links(out);

@@ -18,7 +18,7 @@ namespace taut
     }
   } // namespace
 
-  std::vector<Statistics::NamedQuantity> CaseRunner::quantities()
+  std::vector<NamedQuantity> CaseRunner::quantities()
   {
     set_parameters({});
     std::ostringstream silent;

@@ -17,7 +17,7 @@ namespace taut
   /// The result of a case of a sweep.
   struct CaseResult
   {
-    std::vector<Statistics::NamedQuantity> quantities;
+    std::vector<NamedQuantity> quantities;
     Residuals worst; ///< largest residuals of any step
   };
 
@@ -42,7 +42,7 @@ namespace taut
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
     /// The quantities of a case, from the scene in the file and without a run. Throws UserError.
-    std::vector<Statistics::NamedQuantity> quantities();
+    std::vector<NamedQuantity> quantities();
 
     /// Runs the case with these entries, "Section/Entry=value": the same entries in each case.
     /// Throws UserError, and Interrupted if stop_if() asked to stop.

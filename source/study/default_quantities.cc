@@ -11,7 +11,7 @@ namespace taut
 {
   namespace
   {
-    using Named = Statistics::NamedQuantity;
+    using Named = NamedQuantity;
 
     std::vector<Named> quantities_of_kind(const std::vector<Named> &known,
                                           const std::vector<std::string> &kinds)

@@ -16,7 +16,7 @@ namespace taut
    * them it is the extremes of probes. Without probes it is the link with the largest force, and
    * its impulse. Throws EntryError on Study/Quantities if nothing is left.
    */
-  std::vector<std::string> default_quantities(const std::vector<Statistics::NamedQuantity> &known);
+  std::vector<std::string> default_quantities(const std::vector<NamedQuantity> &known);
 } // namespace taut
 
 #endif

@@ -25,7 +25,7 @@ namespace taut
     constexpr const char *table_name = "sweep.csv", *entries_name = "sweep.prm",
                          *too_large = "more memory than there is";
 
-    std::string title(const Statistics::NamedQuantity &quantity)
+    std::string title(const NamedQuantity &quantity)
     {
       return quantity.item + ": " + quantity.quantity + " [" + quantity.unit + "]";
     }
@@ -99,7 +99,7 @@ namespace taut
     header = csv_cell("case");
     for (const SweptParameter &parameter : swept)
       header += "," + csv_cell(title_of(parameter));
-    for (const Statistics::NamedQuantity &quantity : runner.quantities())
+    for (const NamedQuantity &quantity : runner.quantities())
     {
       names.push_back(title(quantity));
       header += "," + csv_cell(names.back());

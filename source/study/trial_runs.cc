@@ -56,7 +56,7 @@ namespace taut
       return;
     CaseRunner runner(file, overrides);
     runner.stop_if([this]() { return ask(); });
-    std::vector<Statistics::NamedQuantity> known;
+    std::vector<NamedQuantity> known;
     bool has_run = false;
     for (Levels levels(all_refinements.size(), 0); !has_run; ++levels[0])
       try

@@ -161,9 +161,9 @@ TEST_F(AccuracyTest, mistakes_are_named)
 
 TEST(DefaultQuantities, follow_the_kind_of_scene)
 {
-  const auto names = [](const std::vector<taut::Statistics::NamedQuantity> &known)
+  const auto names = [](const std::vector<taut::NamedQuantity> &known)
   { return taut::default_quantities(known)[0]; };
-  const taut::Statistics::NamedQuantity mean{"p", "mean", 1., "N"},
+  const taut::NamedQuantity mean{"p", "mean", 1., "N"},
       maximum{"p", "maximum", 2., "N"}, weak{"a", "largest force", 1., "N"},
       strong{"b", "largest force", 2., "N"}, impulse{"b", "impulse", 3., "N s"},
       largest{"q", "largest", 1., "m"}, smallest{"q", "smallest", -4., "m"},

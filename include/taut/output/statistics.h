@@ -10,6 +10,7 @@
 #include <taut/output/support_figures.h>
 
 #include <iosfwd>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,6 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    using ContactQuantities = taut::ContactQuantities;
     std::size_t n_contacts() const { return contacts.size(); }
 
     /// @p contact counts the sliding contacts in the order of the scene; a strip is one.
@@ -65,8 +65,6 @@ namespace taut
 
     /// Largest displacement of a probe [m, rad].
     double largest_displacement(std::size_t probe) const { return probes[probe].largest; }
-
-    using NamedQuantity = taut::NamedQuantity;
 
     /// All quantities that are one number; sliding contacts count with their filtered force.
     std::vector<NamedQuantity> named_quantities() const;
@@ -115,7 +113,6 @@ namespace taut
     struct ProbeQuantities
     {
       std::string name, unit;
-      bool is_displacement = true;
       double largest = 0., smallest = 0., last = 0.;
     };
 
@@ -134,27 +131,33 @@ namespace taut
     ContactQuantities measure(const Contact &contact, ContactRecord wire) const;
     ContactQuantities measure(const ContactSum &sum) const;
 
-    /// What the file and named_quantities() have of an item.
-    std::vector<NamedQuantity> named_figures(const Contact &contact) const;
-    static std::vector<NamedQuantity> named(const LinkQuantities &link);
-    std::vector<NamedQuantity> named(const ContactSum &sum) const;
-
-    /// A row of a table.
-    struct Quantity
+    /// A figure of an item: one entry for log, file, studies and sweeps.
+    struct Figure
     {
-      std::string name, unit;
+      std::string name, unit; ///< SI, or "share"
       double value;
-      std::vector<double> expected = {}; ///< range in the same unit; empty: none
+      double raw = std::numeric_limits<double>::quiet_NaN(); ///< of the unfiltered force
+      std::vector<double> expected = {};                     ///< range in unit_shown(); empty: none
+
+      /// In log and file displacements are in mm and mrad, shares in %.
+      double factor() const
+      {
+        return unit == "share" ? 100. : unit == "m" || unit == "rad" ? 1e3 : 1.;
+      }
+      std::string unit_shown() const
+      {
+        return unit == "share" ? "%" : factor() > 1. ? "m" + unit : unit;
+      }
+      double shown() const { return factor() * value; }
     };
 
-    /// Rows of a sliding contact: raw force if @p raw, otherwise filtered force and loss.
-    std::vector<Quantity> table(const ContactQuantities &quantities, bool raw) const;
+    /// Of a contact force or a sum, with expected ranges if @p compared.
+    std::vector<Figure> figures_of(const ContactQuantities &force, bool compared) const;
+    std::vector<Figure> figures_of(const ProbeQuantities &probe) const;
+    static std::vector<Figure> figures_of(const LinkQuantities &link);
 
-    /// Rows of a sum, as those of a sliding contact, without expected ranges.
-    static std::vector<Quantity> table_of_sum(const ContactQuantities &quantities, bool raw);
-
-    /// Rows with the largest and smallest displacement of a probe.
-    std::vector<Quantity> table(const ProbeQuantities &probe) const;
+    /// Bands of frequency, losses by duration and the height of a contact.
+    std::vector<Figure> named_figures(const Contact &contact) const;
 
     std::vector<double> expected_range(const std::string &quantity) const;
 
@@ -170,8 +173,8 @@ namespace taut
     std::string window_text(const ContactQuantities &quantities) const;
     void print_head(const std::string &of, const ContactQuantities &quantities,
                     std::ostream &out) const;
-    static void print_rows(const std::vector<Quantity> &rows, const std::vector<Quantity> &raw,
-                           double size, bool judged, std::ostream &out);
+    static void print_rows(const std::vector<Figure> &rows, double size, bool judged,
+                           std::ostream &out);
     void print_contact(const Contact &contact, std::ostream &out) const;
     void print_figures(const Contact &contact, const ContactQuantities &of,
                        std::ostream &out) const;
