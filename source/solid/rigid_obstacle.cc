@@ -14,7 +14,7 @@ namespace taut
     /// Largest number of Gauss-Newton iterations for the closest point of a graph, and their last
     /// step over the distance from the foot, plus the rounding of coordinates.
     constexpr unsigned int most_iterations = 50;
-    constexpr double converged = 1e-12, rounding = 1e-15;
+    constexpr double converged = 1e-12, rounding_of_place = 1e-15;
 
     Coordinates direction(const Coordinates &a, const std::string &what)
     {
@@ -143,7 +143,7 @@ namespace taut
       const Coordinates d = x - plane.point;
       Coordinates step = add_scaled(d, -dot(d, plane.normal), plane.normal);
       step = add_scaled(step, -dot(step, up), up);
-      if (norm(step) <= converged * scale + rounding * norm(x))
+      if (norm(step) <= converged * scale + rounding_of_place * norm(x))
         return {dot(d, plane.normal), plane.normal};
       foot = add_scaled(foot, 1., step);
       plane = tangent_plane(foot);
