@@ -7,7 +7,9 @@
 /// Blocks of cables whose motions in the plane of x and y and along z do not act on each other.
 namespace taut
 {
-  /// A block of a node with the DoFs x, y, z and their derivatives along the cable.
+  /// A block of a node with the DoFs x, y, z and their derivatives along the cable, where motions
+  /// in the plane and along z do not act on each other. A line of cables takes 39 % more time with
+  /// full blocks, a real line 13 %.
   struct DecoupledBlock
   {
     static constexpr int n_dofs = 6;

@@ -30,7 +30,7 @@ namespace taut
     constexpr double same_quotient = 1e-5;
     /// After n iterations from any vector of N DoFs the mean error of the quotient is at most
     /// log(N) / n, half of it for the frequency: 2 % with 1e6 DoFs.
-    constexpr unsigned int most_iterations = 400;
+    constexpr unsigned int most_power_iterations = 400;
 
     /// Y = K X, including springs of elastic constraints.
     void multiply_with_springs(const Structure &structure, const Constraints &constraints,
@@ -64,7 +64,7 @@ namespace taut
     }
     masses.solve(Y);
     double quotient = 0.;
-    for (unsigned int n = 0; n < most_iterations; ++n)
+    for (unsigned int n = 0; n < most_power_iterations; ++n)
     {
       // Y = M^-1 K X, and X^T K X over X^T M X with X of length 1.
       std::vector<double> products(1, 0.);

@@ -12,7 +12,7 @@ namespace taut
     /// Relative residual of a law, in terms of its gap, that ends the iteration. Rounding may keep
     /// it between both; the residuals of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
-    constexpr int most_iterations = 200;
+    constexpr int most_linearisations = 200;
 
     /// Part of the last residual above which the next one is rounding.
     constexpr double not_closer = .9;
@@ -258,7 +258,7 @@ namespace taut
     Error before = {std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
     unsigned int iterations = 0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    for (int iteration = 0; iteration < most_linearisations; ++iteration)
     {
       linearise(u, S, shift);
       for (const Row &row : rows)
