@@ -96,7 +96,7 @@ namespace taut
   {
     /// Accuracy of the largest eigenvalue, and bound of iterations.
     constexpr double eigenvalue_tolerance = .01;
-    constexpr int most_iterations = 200;
+    constexpr int most_power_steps = 200;
   } // namespace
 
   double largest_eigenvalue(const std::vector<std::vector<double>> &G,
@@ -104,7 +104,7 @@ namespace taut
   {
     std::vector<double> x(group.size(), 1.), y(group.size());
     double above = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    for (int iteration = 0; iteration < most_power_steps; ++iteration)
     {
       double highest = 0., lowest = std::numeric_limits<double>::infinity(), largest = 0.;
       for (std::size_t a = 0; a < group.size(); ++a)
