@@ -53,8 +53,9 @@ namespace taut
     prm.add_parameter(
         "Quantity", quantity,
         "Of a sliding contact: 'mean', 'standard deviation', 'maximum', 'minimum', 'contact "
-        "loss', 'standard deviation over mean', of the filtered force in the window of the "
-        "statistics, 'standard deviation 0 to 2 Hz' (also 0 to 5, 5 to 20, 0 to 20), 'losses over "
+        "loss', 'standard deviation over mean', 'mean + 3 standard deviations' (also -), of the "
+        "filtered force in the window of the statistics, 'standard deviation 0 to 2 Hz' (also 0 to "
+        "5, 5 to 20, 0 to 20), 'losses over "
         "5 ms' and 'share of losses over 5 ms' (also 10, 20), 'height range'; of a wire of a strip "
         "'mean share', 'largest share'. Of another link: 'open time', 'closed time', 'largest "
         "force', 'impulse', 'largest impulse'; of a dropper also 'smallest force', 'mean force', "
