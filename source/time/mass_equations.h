@@ -43,7 +43,7 @@ namespace taut
     void solve(BodyVectors &P) const { solvers.solve(P); }
 
     /// f with the compliances.
-    const ComplementarityOperator &f() const { return schur->matrix(); }
+    ComplementarityOperator &f() { return schur->matrix(); }
 
     /// False for a constraint that is conserving or too soft.
     bool takes_part(std::size_t i) const;

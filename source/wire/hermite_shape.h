@@ -20,9 +20,7 @@ namespace taut
 
   /**
    * The shape functions of a cell of length @p h [m] at xi in [0, 1], counted from the cell's first
-   * vertex. A negative @p h is a cell that runs against the wire (see
-   * FE_CubicHermite::signed_length): the slope DoFs and the derivatives still follow the wire. Use
-   * it in inner loops: the compiler drops values that the caller does not use.
+   * vertex. Use it in inner loops: the compiler drops values that the caller does not use.
    */
   inline HermiteShape hermite_shape(const double h, const double xi)
   {

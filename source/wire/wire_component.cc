@@ -95,7 +95,7 @@ namespace taut
     triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 
     if (beam)
-      element = std::make_unique<FE_CubicHermite<1, 3>>();
+      element = std::make_unique<FE_CubicHermite>();
     else
       element = std::make_unique<dealii::FE_Q<1, 3>>(degree);
     dof_handler.distribute_dofs(*element);
