@@ -4,6 +4,8 @@
 #include "cable/errors_of_runs.h"
 #include "cable/places_in_steps.h"
 
+using verification::g;
+
 namespace
 {
   using namespace taut;

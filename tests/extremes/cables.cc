@@ -11,6 +11,8 @@
 #include "base/dot.h"
 #include <taut/cable/cable.h>
 
+using verification::pi;
+
 using namespace extremes;
 
 namespace

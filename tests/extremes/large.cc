@@ -4,6 +4,8 @@
 #include "common.h"
 #include "observation.h"
 
+using verification::g;
+
 using namespace extremes;
 
 namespace
@@ -27,7 +29,7 @@ namespace
     w.tension = kind == taut::TransverseKind::string ? 2e4 : 0.;
     w.bending_stiffness = 10.;
     w.transverse = kind;
-    c.scene.gravity = {0., -verification::g};
+    c.scene.gravity = {0., -g};
     c.scene.wires = {w};
     return c;
   }

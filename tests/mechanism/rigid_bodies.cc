@@ -8,6 +8,9 @@
 
 #include <boost/math/special_functions/ellint_1.hpp>
 
+using verification::g;
+using verification::pi;
+
 namespace
 {
   using namespace mechanism;

@@ -7,6 +7,8 @@
 
 #include <boost/math/tools/minima.hpp>
 
+using verification::pi;
+
 namespace
 {
   using namespace mechanism;

@@ -7,6 +7,8 @@
 #include <taut/output/sliding_contacts.h>
 #include <taut/output/support_figures.h>
 
+using verification::pi;
+
 using namespace taut;
 
 namespace

@@ -3,6 +3,8 @@
 // the lowest place, conservation of energy, impulses of Newton's laws.
 #include "turning_scene.h"
 
+using verification::g;
+
 using namespace turning;
 
 namespace

@@ -4,6 +4,8 @@
 // critical stiffness P/L of a prop, eigenvalues of two props, guys with their own tension.
 #include "turning_scene.h"
 
+using verification::g;
+
 using namespace turning;
 
 namespace

@@ -3,6 +3,8 @@
 // and what such links cannot be is an error that says what to do.
 #include "turning_scene.h"
 
+using verification::pi;
+
 using namespace turning;
 
 namespace
