@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/about_entry.h"
 #include "base/text.h"
-#include "cable/find_length.h"
 #include "scene/places_by_x.h"
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
+#include <taut/cable/find_shape.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
 

@@ -3,7 +3,9 @@
 #define taut_free_bodies_h
 
 #include <taut/interface/constraints.h>
+#include <taut/scene/scene.h>
 
+#include <string>
 #include <vector>
 
 namespace taut
@@ -18,6 +20,10 @@ namespace taut
   std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
                                 const Constraints &constraints,
                                 const std::vector<double> &multiplier);
+
+  /// A warning for each wire under tension that no support, link or bedding holds across it. A
+  /// scene may have such wires, but hardly means them: they fall as a whole.
+  std::vector<std::string> warnings_of_unheld_wires(const Scene &scene);
 } // namespace taut
 
 #endif

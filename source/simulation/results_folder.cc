@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "simulation/results_folder.h"
-#include "simulation/checkpoint.h"
-#include "simulation/folder_lock.h"
 
+#include "simulation/results_folder.h"
 #include "base/data_files.h"
 #include "base/memory.h"
 #include "base/write_file.h"
+#include "simulation/checkpoint.h"
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
 #include <taut/output/observer.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -162,5 +166,26 @@ namespace taut
           remove_unfinished(parameters.output.folder);
           check_folder(parameters);
         });
+  }
+
+  void FolderLock::take(const std::string &folder)
+  {
+    release();
+    file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0 || flock(file, LOCK_EX | LOCK_NB) == 0)
+      return;
+    const bool is_taken = errno == EWOULDBLOCK;
+    release();
+    if (is_taken)
+      throw EntryError("Output/Folder",
+                       "another run writes its results to '" + folder +
+                           "' at this moment; name another folder, or wait until it has ended");
+  }
+
+  void FolderLock::release()
+  {
+    if (file >= 0)
+      close(file);
+    file = -1;
   }
 } // namespace taut

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "simulation/folder_lock.h"
 #include "simulation/results_folder.h"
 
 #include "base/data_files.h"

@@ -6,7 +6,6 @@
 #include "model/scene_constraints.h"
 #include "output/rest_limits.h"
 #include "output/scene_report.h"
-#include "scene/unheld_wires.h"
 #include "simulation/free_bodies.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/spans.h>

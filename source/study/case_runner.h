@@ -3,6 +3,7 @@
 #define taut_case_runner_h
 
 #include "model/shared_parts.h"
+#include "study/quantity_recorder.h"
 #include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
 
@@ -58,6 +59,23 @@ namespace taut
     std::unique_ptr<Parameters> parameters; ///< of the last case; none before the first one
     SharedParts shared;
   };
+
+  /// The quantities and the cost of one run of a study.
+  struct MeasuredRun
+  {
+    std::vector<StudyQuantity> quantities;
+    double seconds = 0.;     ///< processor time of the loop over the steps [s]
+    double certificate = 0.; ///< largest residual of any step [1]
+    long n_steps = 0;
+  };
+
+  /// Throws EntryError if the scene cannot be built, or lacks a quantity of its section Study.
+  void check_quantities(const Parameters &parameters);
+
+  /// Runs a scene with fixed steps. Without @p with_quantities it measures the cost alone.
+  /// @p stop_asked as for Simulation::stop_if(). Throws UserError and Interrupted.
+  MeasuredRun measure_run(const Parameters &parameters, bool with_quantities,
+                          const std::function<int()> &stop_asked);
 } // namespace taut
 
 #endif

@@ -6,6 +6,7 @@
 #include <taut/simulation/study_parameters.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -72,6 +73,15 @@ namespace taut
     std::vector<Source> sources;
     std::vector<double> times;
   };
+
+  /**
+   * Entries of section Study with quantities of interest, "Study/Quantities=...", for a scene that
+   * names none. @p known are the quantities of any run of the scene, those that are 0 are left out.
+   * Sliding contacts have mean and standard deviation, with the largest motion of probes. Without
+   * them it is the extremes of probes. Without probes it is the link with the largest force, and
+   * its impulse. Throws EntryError on Study/Quantities if nothing is left.
+   */
+  std::vector<std::string> default_quantities(const std::vector<NamedQuantity> &known);
 } // namespace taut
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef taut_study_h
 #define taut_study_h
 
-#include "study/measured_run.h"
+#include "study/case_runner.h"
 #include "study/refined_reference.h"
 #include <taut/simulation/parameters.h>
 

@@ -2,7 +2,7 @@
 #include "study/trial_runs.h"
 #include "base/interruption.h"
 #include "study/case_runner.h"
-#include "study/default_quantities.h"
+#include "study/quantity_recorder.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef taut_trial_runs_h
 #define taut_trial_runs_h
 
-#include "study/measured_run.h"
+#include "study/case_runner.h"
 #include "study/refinements.h"
 
 #include <chrono>

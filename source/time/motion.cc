@@ -3,7 +3,6 @@
 #include "time/choose_scheme.h"
 #include "time/contact_resolution.h"
 #include "time/load_sampling.h"
-#include "time/local_error.h"
 #include "time/nonlinear_step.h"
 #include "time/step.h"
 #include "time/step_control.h"

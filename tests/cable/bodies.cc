@@ -6,7 +6,7 @@
 #include "cable/slack_cable.h"
 
 #include "base/dot.h"
-#include "cable/find_length.h"
+#include <taut/cable/find_shape.h>
 
 namespace
 {

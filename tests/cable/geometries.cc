@@ -4,7 +4,7 @@
 #include "cable/slack_cable.h"
 #include "verification/scene_tests.h"
 
-#include "cable/find_length.h"
+#include <taut/cable/find_shape.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

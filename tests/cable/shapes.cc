@@ -4,7 +4,7 @@
 
 #include "verification/scene_tests.h"
 
-#include "cable/find_length.h"
+#include <taut/cable/find_shape.h>
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include "study/in_folder.h"
 
 #include "study/accuracy_search.h"
-#include "study/default_quantities.h"
+#include "study/quantity_recorder.h"
 #include "study/refinements.h"
 #include <taut/simulation/parameters.h>
 

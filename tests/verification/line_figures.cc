@@ -4,7 +4,7 @@
 #include "scene_tests.h"
 
 #include "output/signals.h"
-#include "study/measured_run.h"
+#include "study/case_runner.h"
 #include "study/sweep.h"
 #include <taut/output/spans.h>
 

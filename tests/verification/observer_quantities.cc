@@ -4,7 +4,7 @@
 // m/s.
 #include "scene_tests.h"
 
-#include "study/measured_run.h"
+#include "study/case_runner.h"
 #include "study/sweep.h"
 #include <taut/base/registry.h>
 
