@@ -10,6 +10,7 @@ namespace taut
 {
   namespace
   {
+    /// Over the largest pivot: a motion that nothing holds leaves the rounding of one operation.
     constexpr double smallest_pivot = 1e-15;
 
     constexpr std::size_t lanes = SparseHalves::lanes;

@@ -158,6 +158,8 @@ namespace taut
 
   double ConstraintLaws::polished(const std::size_t i, const double u, const double L) const
   {
+    // Newton's method from the end of a search takes a few; the bound ends one that goes to and
+    // fro.
     constexpr int most = 100;
     constexpr double rounding = 1e-15;
     double result = u;

@@ -134,7 +134,7 @@ namespace taut
   /// A contact under way may need shorter steps than the last one.
   bool StepControl::is_too_long_for_contacts(const Motion &motion) const
   {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9; // of a power of two times Step, and of formulas of dampers
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
       if (shortest * length() > longest_step(i, motion) * (1. + rounding) &&
           is_moving_contact(i, motion))
