@@ -91,18 +91,16 @@ namespace taut
     vectorised(
         [=]
         {
-          product(0, n, x, y,
+          product(x, y,
                   [factor](const double before, const double sum)
                   { return before + factor * sum; });
         });
   }
 
   template <int b>
-  void BlockTridiagonalMatrix<b>::vmult_rows(const std::size_t begin, const std::size_t end,
-                                             const double *x, double *y) const
+  void BlockTridiagonalMatrix<b>::vmult(const double *x, double *y) const
   {
-    vectorised(
-        [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
+    vectorised([=] { product(x, y, [](double, const double sum) { return sum; }); });
   }
 
   /// The product for one node with known neighbours, so that short loops are unrolled.
@@ -142,59 +140,48 @@ namespace taut
   /// without it.
   template <int b>
   template <typename Result>
-  void BlockTridiagonalMatrix<b>::product_of_few(const std::size_t begin, const std::size_t end,
-                                                 const double *x, double *y,
+  void BlockTridiagonalMatrix<b>::product_of_few(const double *x, double *y,
                                                  const Result &result) const
   {
     constexpr std::size_t piece = Diagonals<b>::piece;
     std::array<double, width + few_rows + piece + width> padded;
     std::array<double, few_rows + piece> sums;
-    const std::size_t before = std::min<std::size_t>(begin, width),
-                      after = std::min<std::size_t>(n - end, width), size = end - begin;
     double *const first = padded.data() + width;
-    std::fill(padded.data(), first - before, 0.);
-    std::copy(x + begin - before, x + end + after, first - before);
-    std::fill(first + size + after, first + size + piece + width, 0.);
-    entries.padded_product(begin, size, first, sums.data());
+    std::fill(padded.data(), first, 0.);
+    std::copy(x, x + n, first);
+    std::fill(first + n, first + n + piece + width, 0.);
+    entries.padded_product(n, first, sums.data());
 #pragma omp simd
-    for (std::size_t i = 0; i < size; ++i)
-      y[begin + i] = result(y[begin + i], sums[i]);
+    for (std::size_t i = 0; i < n; ++i)
+      y[i] = result(y[i], sums[i]);
   }
 
-  /// y_i = result(y_i, (A x)_i) for i = begin to end - 1, both multiples of b.
+  /// y_i = result(y_i, (A x)_i)
   template <int b>
   template <typename Result>
-  void BlockTridiagonalMatrix<b>::product(const std::size_t begin, const std::size_t end,
-                                          const double *x, double *y, const Result &result) const
+  void BlockTridiagonalMatrix<b>::product(const double *x, double *y, const Result &result) const
   {
     if constexpr (!is_cable)
-      if (end - begin <= few_rows && repetitions.empty())
-        return product_of_few(begin, end, x, y, result);
+      if (n <= few_rows && repetitions.empty())
+        return product_of_few(x, y, result);
     const std::size_t first = std::min<std::size_t>(n, 2 * b),
                       last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
-    std::size_t done = begin;
-    if (done < std::min(first, end))
-    {
-      product_at_end(done, std::min(first, end), x, y, result);
-      done = std::min(first, end);
-    }
+    product_at_end(0, first, x, y, result);
+    std::size_t done = first;
     for (const Repetition &repetition : repetitions)
     {
-      if (repetition.end <= done || repetition.begin >= end)
-        continue;
       if (done < repetition.begin)
         entries.product(done, repetition.begin, x, y, result);
-      done = std::max(done, repetition.begin);
-      const std::size_t stop = std::min(end, repetition.end);
+      done = repetition.begin;
       if (repetition.is_zero)
       {
-        for (; done < stop; ++done)
+        for (; done < repetition.end; ++done)
           y[done] = result(y[done], 0.);
         continue;
       }
       const auto repeat = [&](const auto stride, const auto &rows)
       {
-        for (; done + lanes <= stop; done += lanes)
+        for (; done + lanes <= repetition.end; done += lanes)
 #pragma omp simd
           for (int k = 0; k < lanes; ++k)
           {
@@ -212,12 +199,9 @@ namespace taut
         repeat(std::integral_constant<int, 1>(), rows);
       }
     }
-    if (done < std::min(last, end))
-    {
-      entries.product(done, std::min(last, end), x, y, result);
-      done = std::min(last, end);
-    }
-    product_at_end(done, end, x, y, result);
+    if (done < last)
+      entries.product(done, last, x, y, result);
+    product_at_end(std::max(done, last), n, x, y, result);
   }
 
   template <int b>

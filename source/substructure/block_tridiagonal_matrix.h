@@ -31,7 +31,7 @@ namespace taut
     void set_zero() override;
     void find_repetitions() override;
     void vmult_add(double factor, const double *x, double *y) const override;
-    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
+    void vmult(const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
@@ -63,11 +63,9 @@ namespace taut
 
     double entry(std::size_t i, int offset) const;
     template <typename Result>
-    void product(std::size_t begin, std::size_t end, const double *x, double *y,
-                 const Result &result) const;
+    void product(const double *x, double *y, const Result &result) const;
     template <typename Result>
-    void product_of_few(std::size_t begin, std::size_t end, const double *x, double *y,
-                        const Result &result) const;
+    void product_of_few(const double *x, double *y, const Result &result) const;
     template <bool has_before, bool has_after, typename Result>
     void product_at_node(std::size_t node, const double *x, double *y, const Result &result) const;
     template <typename Result>

@@ -81,15 +81,13 @@ namespace taut
       }
     }
 
-    /// A x in @p n rows from row @p from on, and in more to whole pieces. @p x and @p sums begin at
-    /// this row. x has its entries or zeros in `width` places before and in `piece + width` after
-    /// the n rows; sums has `piece` more places.
-    void padded_product(const std::size_t from, const std::size_t n, const double *x,
-                        double *sums) const
+    /// A x in all @p n rows, and in more to whole pieces. @p x has zeros in `width` places before
+    /// and in `piece + width` after them; @p sums has `piece` more places.
+    void padded_product(const std::size_t n, const double *x, double *sums) const
     {
       const double *d[width + 1];
       for (int o = 0; o <= width; ++o)
-        d[o] = diagonals[o].data() + from;
+        d[o] = diagonals[o].data();
       for (std::size_t begin = 0; begin < n; begin += piece)
 #pragma omp simd
         for (std::ptrdiff_t i = begin; i < static_cast<std::ptrdiff_t>(begin + piece); ++i)

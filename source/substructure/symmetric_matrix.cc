@@ -2,50 +2,13 @@
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace taut
 {
-  void CoordinateMatrix::add(const unsigned int i, const unsigned int j, const double value)
+  void SymmetricMatrix::vmult(const double *x, double *y) const
   {
-    entries[{std::max(i, j), std::min(i, j)}] += value;
-  }
-
-  void CoordinateMatrix::set_zero()
-  {
-    for (auto &[position, value] : entries)
-      value = 0.;
-  }
-
-  void CoordinateMatrix::vmult_add(const double factor, const double *x, double *y) const
-  {
-    for (const auto &[position, value] : entries)
-    {
-      const auto [i, j] = position;
-      y[i] += factor * value * x[j];
-      if (i != j)
-        y[j] += factor * value * x[i];
-    }
-  }
-
-  void CoordinateMatrix::vmult_rows(const std::size_t begin, const std::size_t end, const double *x,
-                                    double *y) const
-  {
-    if (begin != 0 || end != n)
-      throw std::logic_error("a matrix without blocks has only all of its rows at once");
-    std::fill(y, y + n, 0.);
+    std::fill(y, y + size(), 0.);
     vmult_add(1., x, y);
-  }
-
-  void CoordinateMatrix::visit(const Visitor &visitor) const
-  {
-    for (const auto &[position, value] : entries)
-      visitor(position.first, position.second, value);
-  }
-
-  std::unique_ptr<SymmetricMatrix> CoordinateMatrix::clone() const
-  {
-    return std::make_unique<CoordinateMatrix>(*this);
   }
 
   void CompressedMatrix::add(const unsigned int i, const unsigned int j, const double v)
@@ -120,15 +83,6 @@ namespace taut
         sum += value[e] * x[column[e]];
       y[i] += factor * sum;
     }
-  }
-
-  void CompressedMatrix::vmult_rows(const std::size_t begin, const std::size_t end, const double *x,
-                                    double *y) const
-  {
-    if (begin != 0 || end != n)
-      throw std::logic_error("a matrix without blocks has only all of its rows at once");
-    std::fill(y, y + n, 0.);
-    vmult_add(1., x, y);
   }
 
   void CompressedMatrix::visit(const Visitor &visitor) const

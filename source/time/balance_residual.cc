@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/cache_tiles.h"
-
+#include "time/balance_residual.h"
 #include "base/instruction_set.h"
 #include "base/text.h"
-#include "time/balance_residual.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,21 +16,21 @@ namespace taut
     /// Relative residual that stands for the rounding of a body.
     constexpr double residual_of_rounding = 1e-10;
 
-    /// Mean accelerations in rows begin to end - 1.
-    void combine(const StepCoefficients &c, const double *A, const double *A0,
-                 const std::size_t begin, const std::size_t end, double *result)
+    /// Mean accelerations.
+    void combine(const StepCoefficients &c, const double *A, const double *A0, const std::size_t n,
+                 double *result)
     {
       const double old = c.old_inertia(), now = c.new_inertia();
       vectorised(
           [=]
           {
 #pragma omp simd
-            for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t i = 0; i < n; ++i)
               result[i] = now * A[i] + old * A0[i];
           });
     }
 
-    /// Subtracts K U and C V of a tile from r, and r from the inertia in @p residual.
+    /// Subtracts K U and C V from r, and r from the inertia in @p residual.
     void subtract_forces(const std::size_t size, const double factor, const double kappa,
                          const double *KU, const double *CV, const double *r0, double *r,
                          double *residual)
@@ -54,7 +52,7 @@ namespace taut
           });
     }
 
-    /// dU . (r + kappa r0) of a tile.
+    /// dU . (r + kappa r0)
     double work_of(const double *dU, const double *r, const double *r0, const double kappa,
                    const std::size_t size)
     {
@@ -84,15 +82,13 @@ namespace taut
       norms.push_back({RowSumNorm(body, body.mass()), RowSumNorm(body, body.damping()),
                        RowSumNorm(body, body.stiffness())});
       reference_force.push_back(max_norms(body, reference.force[k]));
-      mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
-      inertia.resize(std::max(inertia.size(), tile_size(body)));
+      for (std::vector<double> *v : {&mean_A, &inertia, &damping})
+        v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
     }
-    damping.resize(inertia.size());
   }
 
   void BalanceResidual::measure(const StepForces &forces, const std::vector<double> &in_balance,
-                                const std::vector<double> &impulsive, State &state,
-                                const SetRows &set_rows)
+                                const std::vector<double> &impulsive, State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
@@ -112,7 +108,7 @@ namespace taut
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      const Sizes sizes = measure_body(k, forces, has_impulses, state, set_rows);
+      const Sizes sizes = measure_body(k, forces, has_impulses, state);
       const double relative = relative_residual(k, forces, sizes, state.time);
       if (!(relative <= largest_residual) && !std::isnan(largest_residual))
       {
@@ -124,59 +120,40 @@ namespace taut
 
   BalanceResidual::Sizes BalanceResidual::measure_body(const std::size_t k,
                                                        const StepForces &forces,
-                                                       const bool has_impulses, State &state,
-                                                       const SetRows &set_rows)
+                                                       const bool has_impulses, State &state)
   {
     const StepCoefficients &c = method.c;
     const double kappa = c.old_balance();
     const bool has_old_inertia = c.old_inertia() != 0.;
     const Substructure &body = structure[k];
-    const bool is_linear = body.is_linear();
-    if (!is_linear)
-    {
-      if (set_rows)
-        set_rows(k, 0, body.n_dofs());
-      nonlinear.set_end_force(k, state);
-    }
+    const std::size_t n = body.n_dofs();
     const double *r0 = forces.old_balance[k].data(), *mass_A = state.A[k].data();
-    if (has_old_inertia)
-      mass_A = mean_A.data();
     double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data();
-    auto constraint = body.constraints().begin();
-    Sizes found;
-    std::size_t done = 0;
-    const auto measure_tile =
-        [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
+    if (body.is_linear())
+      body.stiffness().vmult(state.U[k].data(), KU);
+    else
+      nonlinear.set_end_force(k, state);
+    body.damping().vmult(state.V[k].data(), damping.data());
+    if (has_old_inertia)
     {
-      const std::size_t size = end - begin;
-      if (is_linear)
-      {
-        if (set_rows)
-          set_rows(k, done, reached);
-        body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
-      }
-      body.damping().vmult_rows(begin, end, state.V[k].data(), damping.data());
-      if (has_old_inertia)
-        combine(c, state.A[k].data(), forces.old_A[k].data(), done, reached, mean_A.data());
-      done = reached;
-      body.mass().vmult_rows(begin, end, mass_A, inertia.data());
-      subtract_forces(size, has_old_inertia ? 1. : c.new_inertia(), kappa, KU + begin,
-                      damping.data(), r0 + begin, r + begin, residual);
-      if (has_impulses)
-        for (std::size_t i = 0; i < size; ++i)
-          residual[i] -= impulses[k][begin + i];
-      if (method.has_means())
-        work_of_balance[k] += (1. - c.alpha_f) * work_of(state.dU[k].data() + begin, r + begin,
-                                                         r0 + begin, kappa, size);
-      for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
-        residual[constraint->dof - begin] = 0.;
-
-      raise_norms(found.residual, body, residual, size);
-      raise_norms(found.increment, body, state.dU[k].data() + begin, size);
-      raise_norms(found.velocity, body, state.V[k].data() + begin, size);
-      raise_norms(found.displacement, body, state.U[k].data() + begin, size);
-    };
-    visit_tiles(body, measure_tile);
+      combine(c, state.A[k].data(), forces.old_A[k].data(), n, mean_A.data());
+      mass_A = mean_A.data();
+    }
+    body.mass().vmult(mass_A, residual);
+    subtract_forces(n, has_old_inertia ? 1. : c.new_inertia(), kappa, KU, damping.data(), r0, r,
+                    residual);
+    if (has_impulses)
+      for (std::size_t i = 0; i < n; ++i)
+        residual[i] -= impulses[k][i];
+    if (method.has_means())
+      work_of_balance[k] = (1. - c.alpha_f) * work_of(state.dU[k].data(), r, r0, kappa, n);
+    for (const ConstrainedDof &constraint : body.constraints())
+      residual[constraint.dof] = 0.;
+    Sizes found;
+    raise_norms(found.residual, body, residual, n);
+    raise_norms(found.increment, body, state.dU[k].data(), n);
+    raise_norms(found.velocity, body, state.V[k].data(), n);
+    raise_norms(found.displacement, body, state.U[k].data(), n);
     return found;
   }
 

@@ -38,18 +38,14 @@ namespace taut
                     const Reference &reference, const StepMethod &method,
                     const NonlinearBodies &nonlinear);
 
-    /// Sets displacement, velocity and acceleration of body k in rows begin to end - 1.
-    using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
-
     /**
      * Forms K U and r = P + B N - C V - K U of the state after a step, and the residual() of its
      * equation of motion. @p in_balance are the multipliers in r. @p impulsive are the forces that
-     * act in this step only; empty: none. @p set_rows, if given, sets rows just before their first
-     * use, so that both share the cache. Throws an EntryError on the section of a body with numbers
-     * beyond largest_number.
+     * act in this step only; empty: none. Throws an EntryError on the section of a body with
+     * numbers beyond largest_number.
      */
     void measure(const StepForces &forces, const std::vector<double> &in_balance,
-                 const std::vector<double> &impulsive, State &state, const SetRows &set_rows = {});
+                 const std::vector<double> &impulsive, State &state);
 
     /// Largest relative residual of this rank's bodies after measure(); not-a-number if one is.
     double residual() const { return largest_residual; }
@@ -72,8 +68,7 @@ namespace taut
              displacement = {0., 0.};
     };
 
-    Sizes measure_body(std::size_t k, const StepForces &forces, bool has_impulses, State &state,
-                       const SetRows &set_rows);
+    Sizes measure_body(std::size_t k, const StepForces &forces, bool has_impulses, State &state);
     double relative_residual(std::size_t k, const StepForces &forces, const Sizes &sizes,
                              double time);
 
@@ -86,7 +81,7 @@ namespace taut
     std::vector<ByKind> contact_force;    ///< largest of a constraint, on each body [N, N m]
     BodyVectors impulses;                 ///< forces in this step only
     std::vector<double> mean_A;           ///< mean acceleration of one body in the step
-    std::vector<double> inertia, damping; ///< forces in the rows of a tile
+    std::vector<double> inertia, damping; ///< forces of one body
     std::vector<double> work_of_balance;  ///< of each body [J]
     double largest_residual = 0.;
     std::size_t worst = 0;

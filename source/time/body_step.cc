@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/cache_tiles.h"
-
-#include "base/instruction_set.h"
 #include "time/body_step.h"
+#include "base/instruction_set.h"
 
 #include <algorithm>
 
@@ -17,31 +15,32 @@ namespace taut
       Predictor(const StepCoefficients &c, const std::vector<double> &V,
                 const std::vector<double> &A, const std::vector<double> &dU,
                 const std::vector<double> &V_old)
-          : c(c), V(V.data()), A(A.data()), dU(dU.data()), V_old(V_old.data())
+          : c(c), n(V.size()), V(V.data()), A(A.data()), dU(dU.data()), V_old(V_old.data())
       {
       }
 
-      /// Calls visit(i, v*, a*) for DoFs begin to end - 1; reads only the vectors in use.
+      /// Calls visit(i, v*, a*) for all DoFs; reads only the vectors in use.
       template <typename Visitor>
-      void visit(const std::size_t begin, const std::size_t end, const Visitor &visitor) const
+      void visit(const Visitor &visitor) const
       {
         if (c.looks_back())
 #pragma omp simd
-          for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t i = 0; i < n; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i],
                     c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i]);
         else if (c.v_A != 0. || c.a_A != 0.)
 #pragma omp simd
-          for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t i = 0; i < n; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i], c.a_V * V[i] + c.a_A * A[i]);
         else
 #pragma omp simd
-          for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t i = 0; i < n; ++i)
             visitor(i, c.v_V * V[i], c.a_V * V[i]);
       }
 
     private:
       const StepCoefficients c;
+      const std::size_t n;
       const double *V, *A, *dU, *V_old;
     };
   } // namespace
@@ -57,13 +56,8 @@ namespace taut
       *v = structure.zero();
     step_forces.external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const Substructure &body = structure[k];
-      for (std::vector<double> *v : {&known_v, &mean_a})
-        v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
-      for (std::vector<double> *v : {&damping_of_tile, &inertia_of_tile})
-        v->resize(std::max(v->size(), tile_size(body)));
-    }
+      for (std::vector<double> *v : {&known_v, &mean_a, &damping, &inertia})
+        v->resize(std::max<std::size_t>(v->size(), structure[k].n_dofs()));
   }
 
   void BodyStep::set_external_forces(const double time)
@@ -109,50 +103,43 @@ namespace taut
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const double *A = state.A[k].data(), *p = step_forces.P[k].data(), *KU = state.KU[k].data(),
                  *r = state.balance[k].data();
-    double *v = known_v.data(), *a = mean_a.data(), *Cv = damping_of_tile.data(),
-           *Ma = inertia_of_tile.data(), *R = shared[k].data();
-    std::size_t done = 0;
-    visit_tiles(body,
-                [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
-                {
-                  vectorised(
-                      [=]
-                      {
-                        known.visit(done, reached,
-                                    [=](const std::size_t i, const double v0, const double a0)
-                                    {
-                                      v[i] = v0;
-                                      a[i] = old_forces_count ? now * a0 + old * A[i] : a0;
-                                    });
-                      });
-                  if (moves)
-                    motions.visit(k, done, reached,
-                                  [&](const unsigned int i, const double V, const double A)
-                                  {
-                                    const double du = motions.increments(k)[i];
-                                    v[i] = V - c.velocity * du;
-                                    a[i] =
-                                        now * A + old * state.A[k][i] - now * c.acceleration * du;
-                                  });
-                  done = reached;
-                  if (velocity_is_known)
-                    body.damping().vmult_rows(begin, end, v, Cv);
-                  body.mass().vmult_rows(begin, end, a, Ma);
-                  vectorised(
-                      [=]
-                      {
+    double *v = known_v.data(), *a = mean_a.data(), *Cv = damping.data(), *Ma = inertia.data(),
+           *R = shared[k].data();
+    vectorised(
+        [=]
+        {
+          known.visit(
+              [=](const std::size_t i, const double v0, const double a0)
+              {
+                v[i] = v0;
+                a[i] = old_forces_count ? now * a0 + old * A[i] : a0;
+              });
+        });
+    if (moves)
+      motions.visit(k,
+                    [&](const unsigned int i, const double V, const double mean)
+                    {
+                      const double du = motions.increments(k)[i];
+                      v[i] = V - c.velocity * du;
+                      a[i] = now * mean + old * A[i] - now * c.acceleration * du;
+                    });
+    if (velocity_is_known)
+      body.damping().vmult(v, Cv);
+    body.mass().vmult(a, Ma);
+    vectorised(
+        [=, n = shared[k].size()]
+        {
 #pragma omp simd
-                        for (std::size_t i = begin; i < end; ++i)
-                        {
-                          double sum = p[i] - KU[i];
-                          if (old_forces_count)
-                            sum += kappa * r[i];
-                          if (velocity_is_known)
-                            sum -= Cv[i - begin];
-                          R[i] = sum - Ma[i - begin];
-                        }
-                      });
-                });
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            double sum = p[i] - KU[i];
+            if (old_forces_count)
+              sum += kappa * r[i];
+            if (velocity_is_known)
+              sum -= Cv[i];
+            R[i] = sum - Ma[i];
+          }
+        });
   }
 
   void BodyStep::exchange(State &state)
@@ -184,8 +171,7 @@ namespace taut
     state.balance.swap(f.old_balance);
   }
 
-  void BodyStep::accept(const std::size_t k, const std::size_t begin, const std::size_t end,
-                        State &state) const
+  void BodyStep::accept(const std::size_t k, State &state) const
   {
     const StepCoefficients &c = method.c;
     const double velocity = c.velocity, acceleration = c.acceleration;
@@ -200,9 +186,9 @@ namespace taut
     };
     const Predictor known(c, state.V_old[k], step_forces.old_A[k], step_forces.old_dU[k],
                           step_forces.old_V_old[k]);
-    vectorised([=] { known.visit(begin, end, visitor); });
+    vectorised([=] { known.visit(visitor); });
     if (structure[k].has_moving_constraints() && !c.is_at_rest())
-      motions.visit(k, begin, end,
+      motions.visit(k,
                     [&](const unsigned int i, const double mean_v, const double a)
                     {
                       V[i] = mean_v;

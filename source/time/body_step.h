@@ -47,9 +47,8 @@ namespace taut
     /// Puts back what exchange() put aside since keep(), if anything.
     void take_back(State &state);
 
-    /// After exchange(): sets displacement, velocity, acceleration of body k in rows begin to
-    /// end - 1.
-    void accept(std::size_t k, std::size_t begin, std::size_t end, State &state) const;
+    /// After exchange(): sets displacement, velocity and acceleration of body k.
+    void accept(std::size_t k, State &state) const;
 
     /// Sets loads() for a refinement: the residual of the balance at the end of the step.
     void set_lacking(const StepEquations &equations, State &state);
@@ -71,8 +70,7 @@ namespace taut
     PrescribedMotions motions;
     BodyVectors shared;
     bool is_exchanged = false;
-    std::vector<double> known_v, mean_a; ///< as long as the longest body
-    std::vector<double> damping_of_tile, inertia_of_tile;
+    std::vector<double> known_v, mean_a, damping, inertia; ///< as long as the longest body
   };
 } // namespace taut
 

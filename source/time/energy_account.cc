@@ -126,7 +126,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       work.resize(V[k].size());
-      structure[k].mass().vmult_rows(0, work.size(), V[k].data(), work.data());
+      structure[k].mass().vmult(V[k].data(), work.data());
       of_groups[connected.of_body(k)] += .5 * dot_in_lanes(V[k], work);
     }
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "time/cache_tiles.h"
-
-#include "time/matrix_norms.h"
 #include "time/nonlinear_bodies.h"
+#include "time/matrix_norms.h"
 #include <taut/substructure/body_traits.h>
 
 #include <algorithm>
@@ -108,25 +106,18 @@ namespace taut
     end_force(k, own, dU, own.f);
     set_tangent(k, K);
 
-    for (std::vector<double> &rows : tile)
-      rows.resize(tile_size(body));
-    ByKind change = {0., 0.}, size = change, unbalanced = change, force = change;
-    visit_tiles(body,
-                [&](const std::size_t begin, const std::size_t end, std::size_t)
-                {
-                  double *const difference = tile[0].data(), *const residual = tile[1].data(),
-                                *const whole = tile[2].data();
-                  for (std::size_t i = begin; i < end; ++i)
-                  {
-                    difference[i - begin] = last_dU[i] - dU[i];
-                    residual[i - begin] = last_remainder[i] - own.remainder[i];
-                    whole[i - begin] = own.f[i] + reference.force[k][i];
-                  }
-                  raise_norms(change, body, difference, end - begin);
-                  raise_norms(size, body, dU.data() + begin, end - begin);
-                  raise_norms(unbalanced, body, residual, end - begin);
-                  raise_norms(force, body, whole, end - begin);
-                });
+    // The vectors of the last guess become differences.
+    const std::size_t n = dU.size();
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      last_dU[i] -= dU[i];
+      last_remainder[i] -= own.remainder[i];
+    }
+    whole_force.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      whole_force[i] = own.f[i] + reference.force[k][i];
+    const ByKind change = max_norms(body, last_dU), size = max_norms(body, dU),
+                 unbalanced = max_norms(body, last_remainder), force = max_norms(body, whole_force);
     const ByKind lack = significant_part(body, unbalanced);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)

@@ -98,8 +98,7 @@ namespace taut
     const StepMethod &method;
     std::vector<std::size_t> bodies;
     std::vector<Step> steps; ///< for each body of this rank, linear or not
-    std::vector<double> last_dU, last_remainder, own_force;
-    std::array<std::vector<double>, 3> tile;  ///< rows in set_guess()
+    std::vector<double> last_dU, last_remainder, whole_force, own_force;
     mutable std::vector<double> end_U, end_V; ///< see set_end()
   };
 } // namespace taut

@@ -60,13 +60,10 @@ namespace taut
     /// Calls visit(dof, V, A) for each DoF of body k from begin to end - 1 that moves in time, with
     /// V and A of the equation of motion.
     template <typename Visitor>
-    void visit(const std::size_t k, const std::size_t begin, const std::size_t end,
-               const Visitor &visitor) const
+    void visit(const std::size_t k, const Visitor &visitor) const
     {
-      auto one = std::lower_bound(moving[k].begin(), moving[k].end(), begin,
-                                  [](const Moving &m, const std::size_t i) { return m.dof < i; });
-      for (; one != moving[k].end() && one->dof < end; ++one)
-        visitor(one->dof, one->mean_v, one->a);
+      for (const Moving &one : moving[k])
+        visitor(one.dof, one.mean_v, one.a);
     }
 
     /// Sets the velocities of the state to those of the motions, or to those of the equation of

@@ -123,7 +123,7 @@ namespace taut
   {
     own_history.exchange(state);
     for (std::size_t k = 0; k < structure.size(); ++k)
-      own_history.accept(k, 0, state.U[k].size(), state);
+      own_history.accept(k, state);
     own_contacts.update(state, own_report);
   }
 
@@ -132,19 +132,14 @@ namespace taut
     own_report.method = method;
     own_report.gains.clear();
     own_history.exchange(state);
-    measure(state, residuals,
-            [&](const std::size_t k, const std::size_t begin, const std::size_t end)
-            { own_history.accept(k, begin, end, state); });
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      own_history.accept(k, state);
+    measure_balance(state, residuals);
     own_contacts.update(state, own_report);
     own_costs.lap(StepPart::state);
   }
 
   void Step::measure_balance(State &state, Residuals &residuals)
-  {
-    measure(state, residuals, {});
-  }
-
-  void Step::measure(State &state, Residuals &residuals, const BalanceResidual::SetRows &rows)
   {
     structure.communicator().agree(
         [&]
@@ -152,7 +147,7 @@ namespace taut
           if (!method.c.is_at_rest())
             own_history.prescribed().impose_velocities_of_step(state);
           own_balance.measure(own_history.forces(), own_contacts.in_balance(),
-                              own_contacts.impulsive(), state, rows);
+                              own_contacts.impulsive(), state);
           if (!method.c.is_at_rest())
             own_history.prescribed().impose_velocities(state);
         });

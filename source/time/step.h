@@ -96,7 +96,6 @@ namespace taut
 
     ReusedValues make_equations() const;
     std::size_t most_kept() const;
-    void measure(State &state, Residuals &residuals, const BalanceResidual::SetRows &rows);
     bool refine(State &state);
 
     const Structure &structure;

@@ -85,7 +85,7 @@ namespace taut
     double sum = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      structure[k].mass().vmult_rows(0, dV[k].size(), state.V[k].data(), dV[k].data());
+      structure[k].mass().vmult(state.V[k].data(), dV[k].data());
       sum += .5 * dot_in_lanes(state.V[k], dV[k]);
     }
     structure.communicator().sum(&sum, 1);

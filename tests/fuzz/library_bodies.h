@@ -78,7 +78,7 @@ namespace library
     {
       const unsigned int n = masses.size();
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(n);
+        *matrix = std::make_unique<taut::CompressedMatrix>(n);
       for (unsigned int i = 0; i < n; ++i)
       {
         M->add(i, i, masses[i]);
@@ -143,7 +143,7 @@ namespace library
   private:
     void spoil(const unsigned int n)
     {
-      using taut::CoordinateMatrix;
+      using taut::CompressedMatrix;
       const auto not_finite = [](double) { return not_a_number; };
       const auto add_load = [&](const unsigned int dof, const std::function<double(double)> &P)
       {
@@ -154,14 +154,14 @@ namespace library
       const auto lose_dofs = [&]
       {
         for (auto *matrix : {&M, &C, &K})
-          *matrix = std::make_unique<CoordinateMatrix>(0);
+          *matrix = std::make_unique<CompressedMatrix>(0);
         constant_force.clear();
       };
       const std::map<Defect, std::function<void()>> spoils = {
           {Defect::no_stiffness, [&] { K.reset(); }},
           {Defect::no_damping, [&] { C.reset(); }},
-          {Defect::other_size_of_M, [&] { M = std::make_unique<CoordinateMatrix>(n + 1); }},
-          {Defect::other_size_of_C, [&] { C = std::make_unique<CoordinateMatrix>(n - 1); }},
+          {Defect::other_size_of_M, [&] { M = std::make_unique<CompressedMatrix>(n + 1); }},
+          {Defect::other_size_of_C, [&] { C = std::make_unique<CompressedMatrix>(n - 1); }},
           {Defect::short_force, [&] { constant_force.pop_back(); }},
           {Defect::no_kinds, [&] { kinds.clear(); }},
           {Defect::unknown_kind, [&] { kinds = {7}; }},
@@ -209,7 +209,7 @@ namespace library
     Bob(const std::string &name, const double mass) : Substructure(name)
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(3);
+        *matrix = std::make_unique<taut::CompressedMatrix>(3);
       for (const unsigned int i : {0, 1, 2})
         M->add(i, i, mass);
       constant_force = {0., -gravity * mass, 0.};

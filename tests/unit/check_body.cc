@@ -24,7 +24,7 @@ namespace
           viscosity(linear ? 0. : 7.), drag(linear ? 0. : 50.)
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(n);
+        *matrix = std::make_unique<taut::CompressedMatrix>(n);
       for (unsigned int i = 0; i < n; ++i)
         M->add(i, i, 1.);
       K->add(1., *matrix(Vector(n, 0.), {}, 1., 0.));
@@ -100,7 +100,7 @@ namespace
     std::unique_ptr<taut::SymmetricMatrix> matrix(const Vector &U, const Vector &V,
                                                   const double factor, const double rate) const
     {
-      auto A = std::make_unique<taut::CoordinateMatrix>(U.size());
+      auto A = std::make_unique<taut::CompressedMatrix>(U.size());
       for (unsigned int i = 1; i < U.size(); ++i)
       {
         const double e = U[i] - U[i - 1], v = V.empty() ? 0. : V[i] - V[i - 1],

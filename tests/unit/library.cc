@@ -95,7 +95,7 @@ namespace
     {
       if (n_functions < 2)
         return Chain::tangent(U, V, rate, definite);
-      auto result = std::make_unique<taut::CoordinateMatrix>(1);
+      auto result = std::make_unique<taut::CompressedMatrix>(1);
       result->add(0, 0, 100. + 3e3 * U[0] * U[0]);
       return result;
     }

@@ -42,7 +42,7 @@ namespace
         : Substructure("row"), failure(of_author), linear(linear), drag(drag)
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(2);
+        *matrix = std::make_unique<taut::CompressedMatrix>(2);
       M->add(0, 0, 1.);
       M->add(1, 1, 2.);
       add_springs(k, *K);
@@ -99,7 +99,7 @@ namespace
       failure.call(linear);
       if (linear)
         return Substructure::tangent(U, V, rate, definite);
-      auto A = std::make_unique<taut::CoordinateMatrix>(2);
+      auto A = std::make_unique<taut::CompressedMatrix>(2);
       const double v = V.empty() ? 0. : V[0];
       add_springs(k, *A);
       A->add(0, 0, 3. * cubic * U[0] * U[0] + rate * 3. * drag * v * v);

@@ -165,7 +165,7 @@ namespace
         if (sparse)
           *matrix = std::make_unique<taut::CompressedMatrix>(2);
         else
-          *matrix = std::make_unique<taut::CoordinateMatrix>(2);
+          *matrix = std::make_unique<taut::CompressedMatrix>(2);
       M->add(0, 0, 1.);
       M->add(1, 1, 1.);
       constant_force = {1., 1.};

@@ -12,7 +12,7 @@ namespace
   public:
     Points(const unsigned int n, const unsigned int n_massless) : Substructure("points")
     {
-      const auto make = [&] { return std::make_unique<taut::CoordinateMatrix>(n); };
+      const auto make = [&] { return std::make_unique<taut::CompressedMatrix>(n); };
       M = make();
       C = make();
       K = make();

@@ -20,7 +20,7 @@ namespace verification
         : Substructure("pendulum"), at{length * std::sin(angle), 0., -length * std::cos(angle)},
           EA(EA)
     {
-      auto make = [] { return std::make_unique<taut::CoordinateMatrix>(3); };
+      auto make = [] { return std::make_unique<taut::CompressedMatrix>(3); };
       auto m = make();
       for (unsigned int i = 0; i < 3; ++i)
         m->add(i, i, bob);
@@ -118,7 +118,7 @@ namespace verification
     static std::unique_ptr<taut::SymmetricMatrix> matrix(const double axial, const Place &x,
                                                          const double geometric)
     {
-      auto result = std::make_unique<taut::CoordinateMatrix>(3);
+      auto result = std::make_unique<taut::CompressedMatrix>(3);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j <= i; ++j)
           result->add(i, j, axial * x[i] * x[j] + (i == j ? geometric : 0.));

@@ -20,7 +20,7 @@ namespace
     Bystander() : Substructure("bystander")
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(1);
+        *matrix = std::make_unique<taut::CompressedMatrix>(1);
       M->add(0, 0, 1e6);
       constant_force = {0.};
       finish();

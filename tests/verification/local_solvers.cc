@@ -203,28 +203,22 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
         matrix->vmult_add(2., x.data(), product.data());
         for (unsigned int i = 0; i < size; ++i)
           EXPECT_NEAR(product[i], 1. + 2. * expected[i], 1e-13) << i;
-        for (const unsigned int begin : {0u, b, 17 * b, 100 * b, size - b})
-          for (const unsigned int end : {size, size - b, 120 * b})
-            if (begin < end && end <= size)
-            {
-              Vector part(end - begin, 1.);
-              matrix->vmult_rows(begin, end, x.data(), part.data());
-              for (unsigned int i = begin; i < end; ++i)
-                EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
-            }
+        matrix->vmult(x.data(), product.data());
+        for (unsigned int i = 0; i < size; ++i)
+          EXPECT_NEAR(product[i], expected[i], 1e-13) << i;
       }
       // Nothing at all is a repetition, too.
       const auto zero = taut::make_block_tridiagonal(b, size);
       zero->find_repetitions();
       Vector nothing(size, 1.);
-      zero->vmult_rows(0, size, x.data(), nothing.data());
+      zero->vmult(x.data(), nothing.data());
       EXPECT_EQ(nothing, Vector(size, 0.));
 
       // What is added later counts.
       const unsigned int later = b * (n_nodes / 2);
       matrix->add(later, later, 1.);
       Vector product(size);
-      matrix->vmult_rows(0, size, x.data(), product.data());
+      matrix->vmult(x.data(), product.data());
       EXPECT_NEAR(product[later], expected[later] + x[later], 1e-13);
     }
 }
@@ -240,7 +234,7 @@ TEST(LocalSolvers, matrices_of_two_kinds_are_added)
     {
       SCOPED_TRACE(std::to_string(cable_couples) + ", " + std::to_string(spring_couples));
       const auto cable = value.matrix({b, cable_couples ? "" : "z"}, n_nodes);
-      taut::CoordinateMatrix spring(size);
+      taut::CompressedMatrix spring(size);
       const double direction[3] = {.6, .8, spring_couples ? .5 : 0.};
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j <= i; ++j)

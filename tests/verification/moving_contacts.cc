@@ -71,7 +71,7 @@ Time: Step = 1e-3; End = 0.38
     Roller() : Substructure("roller")
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(1);
+        *matrix = std::make_unique<taut::CompressedMatrix>(1);
       M->add(0, 0, 10.);
       constant_force = {force};
       finish();

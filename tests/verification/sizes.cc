@@ -18,7 +18,7 @@ namespace
     Body(const unsigned int n, const std::vector<unsigned char> &pattern) : Substructure("body")
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(n);
+        *matrix = std::make_unique<taut::CompressedMatrix>(n);
       kinds = pattern;
     }
     void initial_state(std::vector<double> &, std::vector<double> &) const override {}

@@ -6,9 +6,7 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <memory>
-#include <utility>
 
 namespace taut
 {
@@ -40,12 +38,8 @@ namespace taut
     /// y += factor * (this) x; vectors of length size().
     virtual void vmult_add(double factor, const double *x, double *y) const = 0;
 
-    /**
-     * Rows begin to end - 1 of y = (this) x, into y[0] to y[end - begin - 1]. begin and end are
-     * multiples of block_size(); a matrix without blocks computes all rows at once.
-     */
-    virtual void vmult_rows(std::size_t begin, std::size_t end, const double *x,
-                            double *y) const = 0;
+    /// y = (this) x.
+    virtual void vmult(const double *x, double *y) const;
 
     /// Calls the visitor once for each stored pair (i, j <= i).
     virtual void visit(const Visitor &visitor) const = 0;
@@ -64,28 +58,7 @@ namespace taut
     }
   };
 
-  /// Any pattern, entry by entry: the matrices of small lumped mechanisms.
-  class CoordinateMatrix : public SymmetricMatrix
-  {
-  public:
-    explicit CoordinateMatrix(unsigned int n) : n(n) {}
-
-    using SymmetricMatrix::add;
-    unsigned int size() const override { return n; }
-    unsigned int block_size() const override { return 0; }
-    void add(unsigned int i, unsigned int j, double value) override;
-    void set_zero() override;
-    void vmult_add(double factor, const double *x, double *y) const override;
-    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
-    void visit(const Visitor &visitor) const override;
-    std::unique_ptr<SymmetricMatrix> clone() const override;
-
-  private:
-    unsigned int n;
-    std::map<std::pair<unsigned int, unsigned int>, double> entries;
-  };
-
-  /// Any pattern, as compressed rows: the matrices of finite-element models. Entries may be added
+  /// Any pattern, as compressed rows. Entries may be added
   /// in any order until the first use of another function, and again after it.
   class CompressedMatrix : public SymmetricMatrix
   {
@@ -99,7 +72,6 @@ namespace taut
     void set_zero() override;
     void find_repetitions() override { compress(); }
     void vmult_add(double factor, const double *x, double *y) const override;
-    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 

@@ -14,7 +14,7 @@ namespace
     Mass(const double mass, const double &force) : Substructure("mass")
     {
       for (auto *matrix : {&M, &C, &K})
-        *matrix = std::make_unique<taut::CoordinateMatrix>(1);
+        *matrix = std::make_unique<taut::CompressedMatrix>(1);
       M->add(0, 0, mass);
       constant_force = {-9.81 * mass};
       taut::LinearForm one;
