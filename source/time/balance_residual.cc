@@ -149,12 +149,8 @@ namespace taut
       work_of_balance[k] = (1. - c.alpha_f) * work_of(state.dU[k].data(), r, r0, kappa, n);
     for (const ConstrainedDof &constraint : body.constraints())
       residual[constraint.dof] = 0.;
-    Sizes found;
-    raise_norms(found.residual, body, residual, n);
-    raise_norms(found.increment, body, state.dU[k].data(), n);
-    raise_norms(found.velocity, body, state.V[k].data(), n);
-    raise_norms(found.displacement, body, state.U[k].data(), n);
-    return found;
+    return {max_norms(body, residual), max_norms(body, state.dU[k]), max_norms(body, state.V[k]),
+            max_norms(body, state.U[k])};
   }
 
   double BalanceResidual::relative_residual(const std::size_t k, const StepForces &forces,

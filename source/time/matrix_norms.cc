@@ -19,13 +19,12 @@ namespace taut
     }
   } // namespace
 
-  void raise_norms(ByKind &norms, const Substructure &body, const double *const x,
-                   const std::size_t n)
+  ByKind max_norms(const Substructure &body, const double *const x)
   {
     // Some periods of kinds at once: their lanes compare in parallel. A comparison loses
     // not-a-number, a sum keeps it.
     constexpr std::size_t most_lanes = 24, vector_length = 8;
-    const std::size_t period = body.kind_pattern().size(),
+    const std::size_t n = body.n_dofs(), period = body.kind_pattern().size(),
                       lanes = period * ((vector_length + period - 1) / period),
                       n_full = lanes > most_lanes ? 0 : n - n % lanes;
     std::array<double, most_lanes> largest = {}, sums = {};
@@ -41,16 +40,11 @@ namespace taut
               sums[k] += a;
             }
         });
+    ByKind norms = {0., 0.};
     for (std::size_t k = 0; n_full > 0 && k < lanes; ++k)
       raise(norms[body.kind(k)], std::isnan(sums[k]) ? sums[k] : largest[k]);
     for (std::size_t i = n_full; i < n; ++i)
       raise(norms[body.kind(i)], std::fabs(x[i]));
-  }
-
-  ByKind max_norms(const Substructure &body, const std::vector<double> &x)
-  {
-    ByKind norms = {0., 0.};
-    raise_norms(norms, body, x.data(), body.n_dofs());
     return norms;
   }
 

@@ -13,12 +13,13 @@ namespace taut
   /// One number for displacements, one for slopes and rotations: their units differ.
   using ByKind = std::array<double, 2>;
 
-  /// Raises norms to the largest absolute entries of @p n rows of a vector of a substructure, which
-  /// begin with a whole node; not-a-number if an entry is.
-  void raise_norms(ByKind &norms, const Substructure &body, const double *x, std::size_t n);
-
-  /// Of a whole vector. Entries of @p x beyond the DoFs of the body are ignored.
-  ByKind max_norms(const Substructure &body, const std::vector<double> &x);
+  /// Largest absolute entries of a vector of a substructure; not-a-number if an entry is. Entries
+  /// of @p x beyond its DoFs are ignored.
+  ByKind max_norms(const Substructure &body, const double *x);
+  inline ByKind max_norms(const Substructure &body, const std::vector<double> &x)
+  {
+    return max_norms(body, x.data());
+  }
 
   /// The largest entry on the diagonal; 0 if none is positive.
   double largest_on_diagonal(const SymmetricMatrix &matrix);

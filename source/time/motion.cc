@@ -109,6 +109,13 @@ namespace taut
     begin(n_steps);
   }
 
+  Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
+                 InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
+                 const long n_steps)
+      : Motion(structure, constraints, options, std::move(start), std::move(scheme), n_steps, {})
+  {
+  }
+
   Motion::Motion(Motion &other, const double step, const StepParameters &steps,
                  std::vector<LongestStep> longest_steps, const long n_steps)
       : Motion(other.structure, with_courses(other.constraints, other.first_courses),

@@ -7,6 +7,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
+using verification::g;
 using verification::pi;
 
 namespace

@@ -100,7 +100,7 @@ namespace
     write("profile.csv", "s, height\n0, 1\n10, 2\n");
     const Expression same(text, "entry", V::position);
     EXPECT_EQ(same.content(), before.content()) << "read once";
-    taut::set_data_folder(folder.string());
+    taut::set_data_folder(folder.path.string());
     const Expression after(text, "entry", V::position);
     EXPECT_EQ(after.formula(), before.formula());
     EXPECT_NE(after.content(), before.content());

@@ -10,6 +10,7 @@ namespace
   using taut::Speed;
   using taut::time_of_way;
   using taut::Travel;
+  using verification::pi;
 
   std::shared_ptr<const Travel> travel(const std::string &text, const double end,
                                        const double units = 1.)

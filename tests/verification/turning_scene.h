@@ -10,7 +10,8 @@
 namespace turning
 {
   using taut::Coordinates;
-  using verification::has, verification::number, verification::operator+, verification::Overrides;
+  using verification::g, verification::pi, verification::has, verification::number,
+      verification::operator+, verification::Overrides;
 
   /// What a step ends with.
   struct Motion

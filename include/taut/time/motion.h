@@ -83,8 +83,10 @@ namespace taut
     /// constraints with dampers, @p longest_steps are those of ContactResolution.
     Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
            InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
-           long n_steps = std::numeric_limits<long>::max(),
-           std::vector<LongestStep> longest_steps = {});
+           long n_steps = std::numeric_limits<long>::max());
+    Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
+           InitialState start, std::shared_ptr<const TimeIntegrator> scheme, long n_steps,
+           std::vector<LongestStep> longest_steps);
 
     /// The prepared @p other motion once more from its start, in @p n_steps of other lengths. The
     /// constraints move with this one from now on.
