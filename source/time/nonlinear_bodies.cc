@@ -64,8 +64,7 @@ namespace taut
   void NonlinearBodies::prescribe(const PrescribedMotions &motions)
   {
     for (const std::size_t k : bodies)
-      motions.visit(k, 0, steps[k].known_V.size(),
-                    [&](const unsigned int i, const double V, double)
+      motions.visit(k, [&](const unsigned int i, const double V, double)
                     { steps[k].known_V[i] = V - method.c.velocity * motions.increments(k)[i]; });
   }
 

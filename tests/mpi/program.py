@@ -17,8 +17,14 @@ arguments = parse(__doc__, "program", "mpiexec", "prm")
 VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output|us a step|"
                       r"^  [a-zA-Z ]+ \d+\.\d\d +\d+\.\d %$")
 SHORT = {  # what makes a long scene short
+    "bar_on_two_cables": ["Time/End=1.5"],
+    "block_impact": ["Time/End=0.25"],
     "bouncing_bar": ["Time/End=1.3"],
+    "line_of_cables": ["Time/End=0.2", "Statistics/Window="],
+    "line_of_cables_with_weights": ["Time/End=0.2", "Statistics/Window="],
+    "line_with_droppers": ["Time/End=0.3"],
     "real_line": ["Time/End=0.02"],
+    "swinging_load_on_guys": ["Time/End=0.7"],
 }
 
 
