@@ -158,9 +158,9 @@ with tempfile.TemporaryDirectory() as name:
         for scenario in scenarios:
             scenario.end()
 
-# A mesh of some 1e8 elements, in a fifth of what the program needs to start and to run a scene.
+# A mesh of 3.6e6 elements, in twice of what the program needs to start.
 limit = 2**31
-result = subprocess.run([str(word) for word in (arguments.program, *LINE, *entries("Catenary/Contact wire/Element size=1e-6"))],
+result = subprocess.run([str(word) for word in (arguments.program, *LINE, *entries("Catenary/Contact wire/Element size=5e-5"))],
                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), capture_output=True, text=True)
 expect("a run that is larger than its memory", result.returncode == 1 and "more memory than there is" in result.stderr and
        result.stderr.count("\n") == 1, f"{ending(result.returncode)} {result.stderr}")

@@ -56,10 +56,11 @@ namespace verification
 
     std::string path() const
     {
-      return folder.write("mesh.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" +
-                                          std::to_string(n_nodes) + "\n" + nodes.str() +
-                                          "$EndNodes\n$Elements\n" + std::to_string(n_elements) +
-                                          "\n" + elements.str() + "$EndElements\n");
+      return folder.write(folder.path.filename().string() + ".msh",
+                          "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" +
+                              std::to_string(n_nodes) + "\n" + nodes.str() +
+                              "$EndNodes\n$Elements\n" + std::to_string(n_elements) + "\n" +
+                              elements.str() + "$EndElements\n");
     }
 
   private:
