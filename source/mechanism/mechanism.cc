@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mechanism/coordinate_matrix.h"
 #include "mechanism/mechanism.h"
 #include "base/groups.h"
 #include "base/text.h"
@@ -41,9 +42,9 @@ namespace taut
     kinds.clear();
     for (const Dof &dof : dofs)
       kinds.push_back(dof.motion == 2 ? 1 : 0);
-    M = std::make_unique<CompressedMatrix>(n);
-    C = std::make_unique<CompressedMatrix>(n);
-    K = std::make_unique<CompressedMatrix>(n);
+    M = std::make_unique<CoordinateMatrix>(n);
+    C = std::make_unique<CoordinateMatrix>(n);
+    K = std::make_unique<CoordinateMatrix>(n);
     constant_force.assign(n, 0.);
     for (unsigned int i = 0; i < n; ++i)
     {
