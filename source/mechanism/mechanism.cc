@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "mechanism/coordinate_matrix.h"
 #include "mechanism/mechanism.h"
 #include "base/groups.h"
 #include "base/text.h"
+#include "mechanism/coordinate_matrix.h"
 #include "scene/travel.h"
 #include "substructure/motion_rate.h"
 #include <taut/base/exceptions.h>
