@@ -163,11 +163,10 @@ TEST(DefaultQuantities, follow_the_kind_of_scene)
 {
   const auto names = [](const std::vector<taut::NamedQuantity> &known)
   { return taut::default_quantities(known)[0]; };
-  const taut::NamedQuantity mean{"p", "mean", 1., "N"},
-      maximum{"p", "maximum", 2., "N"}, weak{"a", "largest force", 1., "N"},
-      strong{"b", "largest force", 2., "N"}, impulse{"b", "impulse", 3., "N s"},
-      largest{"q", "largest", 1., "m"}, smallest{"q", "smallest", -4., "m"},
-      nothing{"r", "largest", 0., "m"};
+  const taut::NamedQuantity mean{"p", "mean", 1., "N"}, maximum{"p", "maximum", 2., "N"},
+      weak{"a", "largest force", 1., "N"}, strong{"b", "largest force", 2., "N"},
+      impulse{"b", "impulse", 3., "N s"}, largest{"q", "largest", 1., "m"},
+      smallest{"q", "smallest", -4., "m"}, nothing{"r", "largest", 0., "m"};
   EXPECT_EQ(names({mean, maximum, weak, strong, largest, smallest}),
             "Study/Quantities=p mean, q largest");
   EXPECT_EQ(names({weak, strong, largest, smallest, nothing}),
