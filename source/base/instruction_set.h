@@ -13,7 +13,7 @@
 namespace taut
 {
   /// The instructions of the hot loops: those of the whole program, with AVX2 and FMA, or also with
-  /// AVX-512 and its long registers, which save 8 % of the time of a line of cables.
+  /// AVX-512 and its long registers.
   enum class InstructionSet
   {
     baseline,

@@ -15,7 +15,7 @@ namespace taut
     /// large positions.
     constexpr double rounding = 1e-9;
 
-    /// Part of a full step below which the slope is rounding: of 20 halvings none gave a decrease.
+    /// Part of a full step at which twenty halvings end.
     constexpr double shortest_step = 1e-6;
 
     void shorten(DescentProblem &problem)

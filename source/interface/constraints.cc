@@ -54,7 +54,7 @@ namespace taut
 
   double Constraints::distance_beyond(const std::size_t i, const double t) const
   {
-    constexpr double out_of_reach = 10.; // [m]; no contact of a line or a frame closes over it
+    constexpr double out_of_reach = 10.; // [m], above all gaps of lines
     return slides(i) && place(i).is_beyond(t) ? out_of_reach : 0.;
   }
 

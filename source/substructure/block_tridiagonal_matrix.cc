@@ -136,8 +136,7 @@ namespace taut
   }
 
   /// The product for few rows, with a copy of x between zeros: the first and last nodes are like
-  /// all others, and whole vectors of rows are done at once. A line of cables takes 9 % more time
-  /// without it.
+  /// all others, and whole vectors of rows are done at once.
   template <int b>
   template <typename Result>
   void BlockTridiagonalMatrix<b>::product_of_few(const double *x, double *y,

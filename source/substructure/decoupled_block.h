@@ -9,7 +9,7 @@ namespace taut
 {
   /// A block of a node with the DoFs x, y, z and their derivatives along the cable, where motions
   /// in the plane and along z do not act on each other. A line of cables takes 39 % more time with
-  /// full blocks, a real line 13 %.
+  /// full blocks.
   struct DecoupledBlock
   {
     static constexpr int n_dofs = 6;

@@ -110,7 +110,7 @@ namespace taut
     /// True if the ends are closer than a millionth of the length: they have no direction.
     bool vanishes(const Coordinates &difference) const
     {
-      constexpr double least_part = 1e-6; // half of the digits: rounding of places is 1e-12 of it
+      constexpr double least_part = 1e-6; // a direction would have lost six digits
       return !(norm(difference) > least_part * length);
     }
 
