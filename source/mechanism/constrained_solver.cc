@@ -3,9 +3,11 @@
 
 #include <taut/base/exceptions.h>
 
+#include <Teuchos_BLAS.hpp>
+#include <Teuchos_LAPACK.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace taut
 {
@@ -13,12 +15,15 @@ namespace taut
   {
     /// Smallest independent part of a row of G, and smallest pivot over the largest pivot.
     constexpr double independent = 1e-10, smallest_pivot = 1e-15;
+
+    const Teuchos::BLAS<int, double> blas;
+    const Teuchos::LAPACK<int, double> lapack;
   } // namespace
 
   void ConstrainedSolver::factor(const std::vector<ScaledMatrix> &summands,
                                  const std::vector<unsigned int> &constrained)
   {
-    const unsigned int size = summands.front().second->size();
+    const int size = summands.front().second->size();
     m = size - n;
     is_held.assign(size, 0);
     for (const unsigned int dof : constrained)
@@ -27,7 +32,7 @@ namespace taut
     G.assign(m * n, 0.);
     for (const auto &[factor, matrix] : summands)
       matrix->visit(
-          [&, factor = factor](const unsigned int i, const unsigned int j, const double value)
+          [&, factor = factor](const int i, const int j, const double value)
           {
             if (is_held[i] || is_held[j])
               return;
@@ -40,152 +45,101 @@ namespace taut
                 A[j * n + i] += factor * value;
             }
           });
-    for (unsigned int i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i)
       if (is_held[i])
         A[i * n + i] = 1.;
     find_bases();
     factor_reduced();
   }
 
-  /// Householder's reflections of the rows of G, one after the other.
+  /// Q R of the rows of G, each scaled to 1, with the most independent ones first.
   void ConstrainedSolver::find_bases()
   {
-    rows.clear();
-    triangle.clear();
-    Q.assign(n * n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      Q[i * n + i] = 1.;
-    ReducedVector g(n), v(n);
-    for (unsigned int row = 0; row < m; ++row)
+    scale.assign(m, 0.);
+    for (int row = 0; row < m; ++row)
     {
-      const unsigned int r = rows.size();
-      double size = 0., rest = 0.;
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        g[j] = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          g[j] += G[row * n + i] * Q[i * n + j];
-        size += g[j] * g[j];
-        rest += j < r ? 0. : g[j] * g[j];
-      }
-      if (r == n || !(rest > independent * independent * size))
-        continue;
-      std::fill(v.begin(), v.end(), 0.);
-      std::copy(g.begin() + r, g.end(), v.begin() + r);
-      const double pivot = std::copysign(std::sqrt(rest), -g[r]);
-      v[r] -= pivot;
-      double squared = 0.;
-      for (const double x : v)
-        squared += x * x;
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        double product = 0.;
-        for (unsigned int j = r; j < n; ++j)
-          product += Q[i * n + j] * v[j];
-        for (unsigned int j = r; j < n; ++j)
-          Q[i * n + j] -= 2. * product / squared * v[j];
-      }
-      g[r] = pivot;
-      rows.push_back(row);
-      triangle.emplace_back(g.begin(), g.begin() + r + 1);
+      const double size = blas.NRM2(n, &G[row * n], 1);
+      scale[row] = size > 0. ? 1. / size : 0.;
+      blas.SCAL(n, scale[row], &G[row * n], 1);
     }
+    const int n_reflections = std::min(n, m), n_work = 64 * (n + m + 1);
+    std::vector<double> tau(n_reflections), work(n_work);
+    int info;
+    rows.assign(m, 0);
+    Q.assign(n * n, 0.);
+    r = 0;
+    if (m > 0)
+      lapack.GEQP3(n, m, G.data(), n, rows.data(), tau.data(), work.data(), n_work, nullptr, &info);
+    while (r < n_reflections && std::fabs(G[r * n + r]) > independent)
+      ++r;
+    std::copy_n(G.begin(), n_reflections * n, Q.begin());
+    lapack.ORGQR(n, n, n_reflections, Q.data(), n, tau.data(), work.data(), n_work, &info);
   }
 
+  /// A on the motions that G allows, the last columns of Q.
   void ConstrainedSolver::factor_reduced()
   {
-    const unsigned int r = rows.size(), f = n - r;
-    AT.assign(n * f, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int k = 0; k < n; ++k)
-        if (A[i * n + k] != 0.)
-          for (unsigned int j = 0; j < f; ++j)
-            AT[i * f + j] += A[i * n + k] * Q[k * n + r + j];
-    cholesky.assign(f * f, 0.);
+    const int f = n - r;
+    AT.resize(n * f);
+    cholesky.resize(f * f);
+    if (f == 0)
+      return;
+    const double *const allowed = &Q[r * n];
+    blas.SYMM(Teuchos::LEFT_SIDE, Teuchos::LOWER_TRI, n, f, 1., A.data(), n, allowed, n, 0.,
+              AT.data(), n);
+    blas.GEMM(Teuchos::TRANS, Teuchos::NO_TRANS, f, f, n, 1., allowed, n, AT.data(), n, 0.,
+              cholesky.data(), f);
     double largest = 0.;
-    for (unsigned int i = 0; i < f; ++i)
-    {
-      for (unsigned int j = 0; j <= i; ++j)
-        for (unsigned int k = 0; k < n; ++k)
-          cholesky[i * f + j] += Q[k * n + r + i] * AT[k * f + j];
+    for (int i = 0; i < f; ++i)
       largest = std::max(largest, cholesky[i * f + i]);
-    }
-    for (unsigned int j = 0; j < f; ++j)
-    {
-      double pivot = cholesky[j * f + j];
-      for (unsigned int k = 0; k < j; ++k)
-        pivot -= cholesky[j * f + k] * cholesky[j * f + k];
-      if (!(pivot > smallest_pivot * largest))
-        throw BodyNotHeld("nothing holds one of its motions, neither inertia nor stiffness");
-      cholesky[j * f + j] = std::sqrt(pivot);
-      for (unsigned int i = j + 1; i < f; ++i)
-      {
-        for (unsigned int k = 0; k < j; ++k)
-          cholesky[i * f + j] -= cholesky[i * f + k] * cholesky[j * f + k];
-        cholesky[i * f + j] /= cholesky[j * f + j];
-      }
-    }
+    int info;
+    lapack.POTRF('L', f, cholesky.data(), f, &info);
+    bool is_held = info == 0;
+    for (int i = 0; i < f; ++i)
+      is_held = is_held && cholesky[i * f + i] * cholesky[i * f + i] > smallest_pivot * largest;
+    if (!is_held)
+      throw BodyNotHeld("nothing holds one of its motions, neither inertia nor stiffness");
   }
 
   void ConstrainedSolver::solve(std::vector<double> &x) const
   {
-    const unsigned int r = rows.size(), f = n - r;
-    ReducedVector b(x.begin(), x.begin() + n), q(n, 0.), w(n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
+    const int f = n - r;
+    ReducedVector b(x.begin(), x.begin() + n), q(n), y(n);
+    for (int i = 0; i < n; ++i)
       if (is_held[i])
         b[i] = 0.;
-    const auto add_product = [&](ReducedVector &y, const ReducedVector &z)
+    const auto multiply_add = [this](const Teuchos::ETransp trans, const int n_columns,
+                                     const double factor, const double *matrix, const double *z,
+                                     const double own, double *result)
+    { blas.GEMV(trans, n, n_columns, factor, matrix, n, z, 1, own, result, 1); };
+    const auto solve_triangle = [this](const Teuchos::ETransp trans, double *z)
     {
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int k = 0; k < n; ++k)
-          y[i] -= A[i * n + k] * z[k];
-    };
-    const auto component = [&](const ReducedVector &y, const unsigned int j)
-    {
-      double sum = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        sum += Q[i * n + j] * y[i];
-      return sum;
+      blas.TRSM(Teuchos::LEFT_SIDE, Teuchos::UPPER_TRI, trans, Teuchos::NON_UNIT_DIAG, r, 1, 1.,
+                G.data(), n, z, n);
     };
     // The part of the solution that G prescribes.
-    for (unsigned int k = 0; k < r; ++k)
-    {
-      double sum = is_held[n + rows[k]] ? 0. : x[n + rows[k]];
-      for (unsigned int l = 0; l < k; ++l)
-        sum -= triangle[k][l] * w[l];
-      w[k] = sum / triangle[k][k];
-      for (unsigned int i = 0; i < n; ++i)
-        q[i] += w[k] * Q[i * n + k];
-    }
-    ReducedVector left = b;
-    add_product(left, q);
+    for (int k = 0; k < r; ++k)
+      y[k] = scale[rows[k] - 1] * x[n + rows[k] - 1];
+    solve_triangle(Teuchos::TRANS, y.data());
+    multiply_add(Teuchos::NO_TRANS, r, 1., Q.data(), y.data(), 0., q.data());
     // The part of the solution that G allows.
-    ReducedVector y(f);
-    for (unsigned int i = 0; i < f; ++i)
+    ReducedVector left = b;
+    multiply_add(Teuchos::NO_TRANS, n, -1., A.data(), q.data(), 1., left.data());
+    if (f > 0)
     {
-      y[i] = component(left, r + i);
-      for (unsigned int k = 0; k < i; ++k)
-        y[i] -= cholesky[i * f + k] * y[k];
-      y[i] /= cholesky[i * f + i];
-    }
-    for (unsigned int i = f; i-- > 0;)
-    {
-      for (unsigned int k = i + 1; k < f; ++k)
-        y[i] -= cholesky[k * f + i] * y[k];
-      y[i] /= cholesky[i * f + i];
-      for (unsigned int j = 0; j < n; ++j)
-        q[j] += y[i] * Q[j * n + r + i];
+      int info;
+      multiply_add(Teuchos::TRANS, f, 1., &Q[r * n], left.data(), 0., y.data());
+      lapack.POTRS('L', f, 1, cholesky.data(), f, y.data(), f, &info);
+      multiply_add(Teuchos::NO_TRANS, f, 1., &Q[r * n], y.data(), 1., q.data());
     }
     left = b;
-    add_product(left, q);
-    std::fill(x.begin() + n, x.end(), 0.);
-    for (unsigned int k = r; k-- > 0;)
-    {
-      double sum = component(left, k);
-      for (unsigned int l = k + 1; l < r; ++l)
-        sum -= triangle[l][k] * x[n + rows[l]];
-      x[n + rows[k]] = sum / triangle[k][k];
-    }
-    for (unsigned int i = 0; i < n; ++i)
+    multiply_add(Teuchos::NO_TRANS, n, -1., A.data(), q.data(), 1., left.data());
+    multiply_add(Teuchos::TRANS, r, 1., Q.data(), left.data(), 0., y.data());
+    solve_triangle(Teuchos::NO_TRANS, y.data());
+    std::fill(x.begin(), x.end(), 0.);
+    for (int k = 0; k < r; ++k)
+      x[n + rows[k] - 1] = scale[rows[k] - 1] * y[k];
+    for (int i = 0; i < n; ++i)
       x[i] = is_held[i] ? 0. : q[i];
   }
 

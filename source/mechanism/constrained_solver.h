@@ -39,14 +39,15 @@ namespace taut
     void find_bases();
     void factor_reduced();
 
-    unsigned int n, m = 0;          ///< numbers of q and s
-    std::vector<char> is_held;      ///< DoFs
-    std::vector<double> A, G;       ///< n x n and m x n, row after row
-    std::vector<double> Q;          ///< columns: motions that G prescribes, then allowed motions
-    std::vector<unsigned int> rows; ///< of G, independent of each other
-    std::vector<ReducedVector> triangle; ///< these rows of G Q
-    std::vector<double> cholesky;        ///< of A on the motions that G allows
-    std::vector<double> AT;              ///< A times these motions, in factor_reduced()
+    int n, m = 0, r = 0;       ///< numbers of q and s, and of independent rows of G
+    std::vector<char> is_held; ///< DoFs
+    std::vector<double> A;     ///< n x n
+    std::vector<double> G;     ///< rows, then, in Fortran's order, R of the scaled and sorted ones
+    std::vector<double> scale; ///< of the rows
+    std::vector<int> rows;     ///< from 1, in the order of R
+    std::vector<double> Q;     ///< columns: motions that G prescribes, then allowed motions
+    std::vector<double> cholesky; ///< of A on the motions that G allows
+    std::vector<double> AT;       ///< A times these motions, in factor_reduced()
   };
 } // namespace taut
 
