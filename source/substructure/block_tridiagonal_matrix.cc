@@ -77,8 +77,7 @@ namespace taut
             if (o % n_directions != 0)
               directions_are_apart = false;
           }
-        const bool is_faster = n > few_rows || repetition.is_zero; // than rows that are read
-        if (is_cable ? directions_are_apart : is_faster)
+        if (!is_cable || directions_are_apart)
           repetitions.push_back(repetition);
       }
       begin = end;
@@ -135,34 +134,11 @@ namespace taut
                   : product_at_node<true, false>(node, x, y, result);
   }
 
-  /// The product for few rows, with a copy of x between zeros: the first and last nodes are like
-  /// all others, and whole vectors of rows are done at once.
-  template <int b>
-  template <typename Result>
-  void BlockTridiagonalMatrix<b>::product_of_few(const double *x, double *y,
-                                                 const Result &result) const
-  {
-    constexpr std::size_t piece = Diagonals<b>::piece;
-    std::array<double, width + few_rows + piece + width> padded;
-    std::array<double, few_rows + piece> sums;
-    double *const first = padded.data() + width;
-    std::fill(padded.data(), first, 0.);
-    std::copy(x, x + n, first);
-    std::fill(first + n, first + n + piece + width, 0.);
-    entries.padded_product(n, first, sums.data());
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i)
-      y[i] = result(y[i], sums[i]);
-  }
-
   /// y_i = result(y_i, (A x)_i)
   template <int b>
   template <typename Result>
   void BlockTridiagonalMatrix<b>::product(const double *x, double *y, const Result &result) const
   {
-    if constexpr (!is_cable)
-      if (n <= few_rows && repetitions.empty())
-        return product_of_few(x, y, result);
     const std::size_t first = std::min<std::size_t>(n, 2 * b),
                       last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
     product_at_end(0, first, x, y, result);

@@ -49,7 +49,6 @@ namespace taut
     static constexpr int width = 2 * b - 1; ///< diagonals below the main one
     static constexpr bool is_cable = b == CableNodes::b;
     static constexpr int n_directions = 3;                       ///< of cables
-    static constexpr std::size_t few_rows = 256;                 ///< their vectors fit on the stack
     static constexpr int lanes = b % n_directions == 0 ? 24 : 8; ///< whole nodes
 
     /// Rows begin to end - 1 repeat `lanes` rows, which are whole nodes. For cables only if
@@ -64,8 +63,6 @@ namespace taut
     double entry(std::size_t i, int offset) const;
     template <typename Result>
     void product(const double *x, double *y, const Result &result) const;
-    template <typename Result>
-    void product_of_few(const double *x, double *y, const Result &result) const;
     template <bool has_before, bool has_after, typename Result>
     void product_at_node(std::size_t node, const double *x, double *y, const Result &result) const;
     template <typename Result>

@@ -18,13 +18,12 @@ namespace taut
   {
   public:
     static constexpr int width = 2 * b - 1; ///< diagonals below the main one
-    static constexpr int piece = 8;         ///< rows of a product with padded vectors
 
     /// @p n rows.
     explicit Diagonals(const std::size_t n)
     {
       for (auto &entries : diagonals)
-        entries.assign(n + width + piece, 0.);
+        entries.assign(n + width, 0.);
     }
 
     void set_zero()
@@ -79,24 +78,6 @@ namespace taut
           sum += d[o][i] * x[i - o] + d[o][i + o] * x[i + o];
         y[i] = result(y[i], sum);
       }
-    }
-
-    /// A x in all @p n rows, and in more to whole pieces. @p x has zeros in `width` places before
-    /// and in `piece + width` after them; @p sums has `piece` more places.
-    void padded_product(const std::size_t n, const double *x, double *sums) const
-    {
-      const double *d[width + 1];
-      for (int o = 0; o <= width; ++o)
-        d[o] = diagonals[o].data();
-      for (std::size_t begin = 0; begin < n; begin += piece)
-#pragma omp simd
-        for (std::ptrdiff_t i = begin; i < static_cast<std::ptrdiff_t>(begin + piece); ++i)
-        {
-          double sum = d[0][i] * x[i];
-          for (int o = 1; o <= width; ++o)
-            sum += d[o][i] * x[i - o] + d[o][i + o] * x[i + o];
-          sums[i] = sum;
-        }
     }
 
   private:
