@@ -35,12 +35,6 @@ namespace taut
       }
 
       void solve(std::vector<double> &x) const override { solver->solve(x); }
-      void solve_beside(std::vector<double> &x, const LocalSolver &other,
-                        std::vector<double> &y) const override
-      {
-        const auto *const alike = dynamic_cast<const CableSolver *>(&other);
-        solver->solve_beside(x, alike == nullptr ? other : *alike->solver, y);
-      }
       void column(const LinearForm &rhs, WindowedVector &x) const override
       {
         solver->column(rhs, x);

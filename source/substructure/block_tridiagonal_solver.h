@@ -2,7 +2,7 @@
 #ifndef taut_block_tridiagonal_solver_h
 #define taut_block_tridiagonal_solver_h
 
-#include "substructure/block_substitution.h"
+#include "substructure/block_elimination.h"
 #include "substructure/block_tridiagonal_matrix.h"
 
 #include "base/instruction_set.h"
@@ -32,19 +32,16 @@ namespace taut
     void factor(const std::vector<ScaledMatrix> &summands,
                 const std::vector<unsigned int> &constrained_dofs) override;
     void solve(std::vector<double> &x) const override;
-    void solve_beside(std::vector<double> &x, const LocalSolver &other,
-                      std::vector<double> &y) const override;
     void column(const LinearForm &rhs, WindowedVector &x) const override;
     double flexibility(const LinearForm &rhs) const override;
 
   private:
-    BothEliminations<AnyBlock> eliminations() const;
     AnyBlock pivot_from_left(std::size_t i, const AnyBlock &G) const;
     AnyBlock pivot_from_right(std::size_t i, const AnyBlock &H) const;
     void eliminate_from_left(std::size_t begin, std::size_t end) const;
     void eliminate_from_right(std::size_t begin, std::size_t end) const;
     bool complete() const;
-    void solve_middle(double *x) const;
+    void solve_nodes(double *x) const;
 
     bool element_of(const LinearForm &rhs, unsigned int &node, std::array<double, 2 * b> &r) const;
     void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
@@ -182,23 +179,55 @@ namespace taut
     return is_whole;
   }
 
+  /// From both ends to the middle, and back, with both ends in one loop: the two chains of
+  /// operations do not wait for each other, and their nodes stay in registers.
   template <typename AnyBlock>
-  void BlockTridiagonalSolver<AnyBlock>::solve_middle(double *x) const
+  void BlockTridiagonalSolver<AnyBlock>::solve_nodes(double *x) const
   {
-    double *m = x + b * middle, solution[b];
-    if (middle > 0)
-      subtract(from_left[middle].multiplier, m - b, m);
-    if (middle + 1 < n)
-      subtract(from_right[middle].multiplier, m + b, m);
-    multiply(middle_inverse, m, solution);
-    std::copy(solution, solution + b, m);
-  }
+    const Elimination<AnyBlock> *const *const G = from_left.data(), *const *const H =
+                                                                        from_right.data();
+    const std::ptrdiff_t m = middle, last = n - 1, behind = last - m;
+    NodeOf<AnyBlock> left, right;
+    const auto eliminate_left = [&](const std::ptrdiff_t i)
+    { left = eliminate(G[i]->transposed, left, x + b * i); };
+    const auto eliminate_right = [&](const std::ptrdiff_t i)
+    { right = eliminate(H[i]->transposed, right, x + b * i); };
+    left.read(x);
+    right.read(x + b * last);
+    std::ptrdiff_t k = 1;
+    for (; k < std::min(m, behind); ++k)
+    {
+      eliminate_left(k);
+      eliminate_right(last - k);
+    }
+    for (std::ptrdiff_t i = k; i < m; ++i)
+      eliminate_left(i);
+    for (std::ptrdiff_t i = k; i < behind; ++i)
+      eliminate_right(last - i);
 
-  template <typename AnyBlock>
-  BothEliminations<AnyBlock> BlockTridiagonalSolver<AnyBlock>::eliminations() const
-  {
-    return {from_left.data(), from_right.data(), static_cast<std::ptrdiff_t>(n),
-            static_cast<std::ptrdiff_t>(middle)};
+    double *const at_middle = x + b * m, solution[b];
+    if (m > 0)
+      subtract(G[m]->multiplier, at_middle - b, at_middle);
+    if (behind > 0)
+      subtract(H[m]->multiplier, at_middle + b, at_middle);
+    multiply(middle_inverse, at_middle, solution);
+    std::copy(solution, solution + b, at_middle);
+
+    const auto substitute_left = [&](const std::ptrdiff_t i)
+    { left = substitute(G[i]->inverse, G[i + 1]->multiplier, left, x + b * i); };
+    const auto substitute_right = [&](const std::ptrdiff_t i)
+    { right = substitute(H[i]->inverse, H[i - 1]->multiplier, right, x + b * i); };
+    left.read(at_middle);
+    right = left;
+    for (k = 1; k <= std::min(m, behind); ++k)
+    {
+      substitute_left(m - k);
+      substitute_right(m + k);
+    }
+    for (std::ptrdiff_t i = k; i <= m; ++i)
+      substitute_left(m - i);
+    for (std::ptrdiff_t i = k; i <= behind; ++i)
+      substitute_right(m + i);
   }
 
   template <typename AnyBlock>
@@ -206,46 +235,7 @@ namespace taut
   {
     for (const unsigned int dof : constrained)
       x[dof] = 0.;
-    vectorised(
-        [this, all = x.data()]
-        {
-          Inwards(eliminations(), all).finish(1);
-          solve_middle(all);
-          Outwards(eliminations(), all).finish(1);
-        });
-  }
-
-  template <typename AnyBlock>
-  void BlockTridiagonalSolver<AnyBlock>::solve_beside(std::vector<double> &x,
-                                                      const LocalSolver &other,
-                                                      std::vector<double> &y) const
-  {
-    const auto *const alike = dynamic_cast<const BlockTridiagonalSolver *>(&other);
-    if (alike == nullptr)
-      return LocalSolver::solve_beside(x, other, y);
-    for (const unsigned int dof : constrained)
-      x[dof] = 0.;
-    for (const unsigned int dof : alike->constrained)
-      y[dof] = 0.;
-    const auto together = [](auto first, auto second)
-    {
-      const std::ptrdiff_t n = std::min(first.n_steps(), second.n_steps());
-      for (std::ptrdiff_t k = 1; k <= n; ++k)
-      {
-        first.step(k);
-        second.step(k);
-      }
-      first.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
-      second.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
-    };
-    vectorised(
-        [&together, this, alike, all_x = x.data(), all_y = y.data()]
-        {
-          together(Inwards(eliminations(), all_x), Inwards(alike->eliminations(), all_y));
-          solve_middle(all_x);
-          alike->solve_middle(all_y);
-          together(Outwards(eliminations(), all_x), Outwards(alike->eliminations(), all_y));
-        });
+    vectorised([this, all = x.data()] { solve_nodes(all); });
   }
 
   /// Solves on nodes @p node and the next one with everything outside them eliminated.

@@ -390,10 +390,7 @@ namespace taut
 
   void FactoredStructure::solve(BodyVectors &X) const
   {
-    std::size_t k = 0;
-    for (; k + 1 < solvers.size(); k += 2)
-      solvers[k]->solve_beside(X[k], *solvers[k + 1], X[k + 1]);
-    if (k < solvers.size())
+    for (std::size_t k = 0; k < solvers.size(); ++k)
       solvers[k]->solve(X[k]);
   }
 } // namespace taut

@@ -4,13 +4,6 @@
 
 namespace taut
 {
-  void LocalSolver::solve_beside(std::vector<double> &x, const LocalSolver &other,
-                                 std::vector<double> &y) const
-  {
-    solve(x);
-    other.solve(y);
-  }
-
   void LocalSolver::flexibilities(const std::vector<const LinearForm *> &rows,
                                   std::vector<double> &F) const
   {

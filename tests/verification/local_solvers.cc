@@ -250,32 +250,6 @@ TEST(LocalSolvers, matrices_of_two_kinds_are_added)
     }
 }
 
-// Two bodies of different lengths, in one loop and one after the other; and of different solvers.
-TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
-{
-  Numbers value(3);
-  for (const Blocks &blocks : all_blocks)
-    for (const std::string &name : solver_names)
-      for (const unsigned int n_nodes : {1u, 2u, 3u, 40u, 93u})
-      {
-        SCOPED_TRACE(name + ", " + blocks.name() + ", nodes: " + std::to_string(n_nodes));
-        const unsigned int b = blocks.size;
-        // A decoupled body stands beside a coupled one, or beside another decoupled one.
-        const auto A = value.matrix(blocks, 40),
-                   B = value.matrix(n_nodes % 2 == 0 ? Blocks{b} : blocks, n_nodes);
-        const auto first = taut::make_local_solver("block tridiagonal", *A),
-                   second = taut::make_local_solver(name, *B);
-        first->factor({{1., A.get()}}, {1});
-        second->factor({{1., B.get()}}, {b * n_nodes - 1});
-        Vector x = value(40 * b), y = value(n_nodes * b), x_alone = x, y_alone = y;
-        first->solve_beside(x, *second, y);
-        first->solve(x_alone);
-        second->solve(y_alone);
-        EXPECT_LE(largest_difference(x_alone, x), 1e-14);
-        EXPECT_LE(largest_difference(y_alone, y), 1e-14);
-      }
-}
-
 // Windows of any length at any place, padded or not.
 TEST(LocalSolvers, scalar_products_of_windows_are_sums_of_their_terms)
 {

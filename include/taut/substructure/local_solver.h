@@ -37,11 +37,6 @@ namespace taut
     /// x = A^-1 x.
     virtual void solve(std::vector<double> &x) const = 0;
 
-    /// x = A^-1 x, and y solved by @p other. Solvers of one kind solve both in one loop, in which
-    /// the two chains of operations do not wait for each other.
-    virtual void solve_beside(std::vector<double> &x, const LocalSolver &other,
-                              std::vector<double> &y) const;
-
     /**
      * x = A^-1 rhs. Tails below 1e-18 of the largest entry of the same kind are left out, unless @p
      * rhs acts on the DoFs of more than one element.
