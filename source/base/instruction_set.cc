@@ -29,15 +29,10 @@ namespace taut
     {
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
       const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-      const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
-                          __builtin_cpu_supports("avx512dq") &&
-                          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
 #else
-      const bool avx2 = false, avx512 = false;
+      const bool avx2 = false;
 #endif
-      return {{InstructionSet::baseline, "baseline", true},
-              {InstructionSet::avx2, "avx2", avx2},
-              {InstructionSet::avx512, "avx512", avx512}};
+      return {{InstructionSet::baseline, "baseline", true}, {InstructionSet::avx2, "avx2", avx2}};
     }
 
     InstructionSet choose()
@@ -57,7 +52,7 @@ namespace taut
       }
       if (!name.empty())
         throw UserError("environment variable " + std::string(variable) + " = '" + name +
-                        "' names no instruction set: give it the value baseline, avx2 or avx512, "
+                        "' names no instruction set: give it the value baseline or avx2, "
                         "or leave it out");
       return best;
     }

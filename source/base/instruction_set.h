@@ -12,24 +12,22 @@
 
 namespace taut
 {
-  /// The instructions of the hot loops: those of the whole program, with AVX2 and FMA, or also with
-  /// AVX-512 and its long registers.
+  /// The instructions of the hot loops: those of the whole program, or with AVX2 and FMA.
   enum class InstructionSet
   {
     baseline,
-    avx2,
-    avx512
+    avx2
   };
 
   /**
    * The best instruction set of the processor, or the set that the environment variable
-   * TAUT_INSTRUCTION_SET names: baseline, avx2 or avx512. It is constant during a run. Throws
+   * TAUT_INSTRUCTION_SET names: baseline or avx2. It is constant during a run. Throws
    * UserError if the variable names no set, or a set that this processor or this build does not
    * have.
    */
   InstructionSet instruction_set();
 
-  /// For the log: "avx512", "baseline (TAUT_INSTRUCTION_SET)".
+  /// For the log: "avx2", "baseline (TAUT_INSTRUCTION_SET)".
   std::string instruction_set_in_use();
 
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
@@ -41,16 +39,6 @@ namespace taut
   {
     loops();
   }
-
-  /// As run_with_avx2(), for AVX-512 with registers of eight doubles, also where the compiler would
-  /// take four.
-  template <typename Loops>
-  [[gnu::target("avx2,fma,avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512"),
-    gnu::flatten]] void
-  run_with_avx512(const Loops loops)
-  {
-    loops();
-  }
 #endif
 
   /// Calls loops(), compiled for the instruction set in use. A call costs some nanoseconds: wrap a
@@ -59,17 +47,8 @@ namespace taut
   inline void vectorised(const Loops &loops)
   {
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
-    switch (instruction_set())
-    {
-    case InstructionSet::avx512:
-      run_with_avx512(loops);
-      return;
-    case InstructionSet::avx2:
-      run_with_avx2(loops);
-      return;
-    case InstructionSet::baseline:
-      break;
-    }
+    if (instruction_set() == InstructionSet::avx2)
+      return run_with_avx2(loops);
 #endif
     loops();
   }

@@ -5,8 +5,6 @@
 set(programs complementarity_tests fe_cubic_hermite_tests bad_input_tests library_tests extreme_scenes)
 set(ENV{ASAN_OPTIONS} detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1)
 set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
-# GCC 12 does not align the frames that this sanitizer looks after as AVX-512 needs it.
-set(ENV{TAUT_INSTRUCTION_SET} avx2)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
 
