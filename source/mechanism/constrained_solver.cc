@@ -63,7 +63,8 @@ namespace taut
       blas.SCAL(n, scale[row], &G[row * n], 1);
     }
     const int n_reflections = std::min(n, m), n_work = 64 * (n + m + 1);
-    std::vector<double> tau(n_reflections), work(n_work);
+    tau.resize(n_reflections);
+    work.resize(n_work);
     int info;
     rows.assign(m, 0);
     Q.assign(n * n, 0.);

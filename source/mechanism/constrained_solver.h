@@ -46,8 +46,9 @@ namespace taut
     std::vector<double> scale; ///< of the rows
     std::vector<int> rows;     ///< from 1, in the order of R
     std::vector<double> Q;     ///< columns: motions that G prescribes, then allowed motions
-    std::vector<double> cholesky; ///< of A on the motions that G allows
-    std::vector<double> AT;       ///< A times these motions, in factor_reduced()
+    std::vector<double> cholesky;  ///< of A on the motions that G allows
+    std::vector<double> tau, work; ///< of LAPACK, in find_bases()
+    std::vector<double> AT;        ///< A times these motions, in factor_reduced()
   };
 } // namespace taut
 
