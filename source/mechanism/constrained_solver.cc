@@ -3,11 +3,13 @@
 
 #include <taut/base/exceptions.h>
 
-#include <Teuchos_BLAS.hpp>
-#include <Teuchos_LAPACK.hpp>
+#include <deal.II/lac/lapack_templates.h>
 
 #include <algorithm>
 #include <cmath>
+
+extern "C" void dgeqp3_(const int *m, const int *n, double *A, const int *lda, int *pivots,
+                        double *tau, double *work, const int *lwork, int *info);
 
 namespace taut
 {
@@ -16,8 +18,13 @@ namespace taut
     /// Smallest independent part of a row of G, and smallest pivot over the largest pivot.
     constexpr double independent = 1e-10, smallest_pivot = 1e-15;
 
-    const Teuchos::BLAS<int, double> blas;
-    const Teuchos::LAPACK<int, double> lapack;
+    /// y = factor op(A) x + own y with the n x n_columns matrix A.
+    void multiply(const char op, const int n, const int n_columns, const double factor,
+                  const double *A, const double *x, const double own, double *y)
+    {
+      constexpr int one = 1;
+      dealii::gemv(&op, &n, &n_columns, &factor, A, &n, x, &one, &own, y, &one);
+    }
   } // namespace
 
   void ConstrainedSolver::factor(const std::vector<ScaledMatrix> &summands,
@@ -58,9 +65,12 @@ namespace taut
     scale.assign(m, 0.);
     for (int row = 0; row < m; ++row)
     {
-      const double size = blas.NRM2(n, &G[row * n], 1);
-      scale[row] = size > 0. ? 1. / size : 0.;
-      blas.SCAL(n, scale[row], &G[row * n], 1);
+      double squares = 0.;
+      for (int i = 0; i < n; ++i)
+        squares += G[row * n + i] * G[row * n + i];
+      scale[row] = squares > 0. ? 1. / std::sqrt(squares) : 0.;
+      for (int i = 0; i < n; ++i)
+        G[row * n + i] *= scale[row];
     }
     const int n_reflections = std::min(n, m), n_work = 64 * (n + m + 1);
     tau.resize(n_reflections);
@@ -70,11 +80,11 @@ namespace taut
     Q.assign(n * n, 0.);
     r = 0;
     if (m > 0)
-      lapack.GEQP3(n, m, G.data(), n, rows.data(), tau.data(), work.data(), n_work, nullptr, &info);
+      dgeqp3_(&n, &m, G.data(), &n, rows.data(), tau.data(), work.data(), &n_work, &info);
     while (r < n_reflections && std::fabs(G[r * n + r]) > independent)
       ++r;
     std::copy_n(G.begin(), n_reflections * n, Q.begin());
-    lapack.ORGQR(n, n, n_reflections, Q.data(), n, tau.data(), work.data(), n_work, &info);
+    dealii::orgqr(&n, &n, &n_reflections, Q.data(), &n, tau.data(), work.data(), &n_work, &info);
   }
 
   /// A on the motions that G allows, the last columns of Q.
@@ -86,15 +96,15 @@ namespace taut
     if (f == 0)
       return;
     const double *const allowed = &Q[r * n];
-    blas.SYMM(Teuchos::LEFT_SIDE, Teuchos::LOWER_TRI, n, f, 1., A.data(), n, allowed, n, 0.,
-              AT.data(), n);
-    blas.GEMM(Teuchos::TRANS, Teuchos::NO_TRANS, f, f, n, 1., allowed, n, AT.data(), n, 0.,
-              cholesky.data(), f);
+    constexpr double one = 1., zero = 0.;
+    dealii::gemm("N", "N", &n, &f, &n, &one, A.data(), &n, allowed, &n, &zero, AT.data(), &n);
+    dealii::gemm("T", "N", &f, &f, &n, &one, allowed, &n, AT.data(), &n, &zero, cholesky.data(),
+                 &f);
     double largest = 0.;
     for (int i = 0; i < f; ++i)
       largest = std::max(largest, cholesky[i * f + i]);
     int info;
-    lapack.POTRF('L', f, cholesky.data(), f, &info);
+    dealii::potrf("L", &f, cholesky.data(), &f, &info);
     bool is_held = info == 0;
     for (int i = 0; i < f; ++i)
       is_held = is_held && cholesky[i * f + i] * cholesky[i * f + i] > smallest_pivot * largest;
@@ -109,34 +119,33 @@ namespace taut
     for (int i = 0; i < n; ++i)
       if (is_held[i])
         b[i] = 0.;
-    const auto multiply_add = [this](const Teuchos::ETransp trans, const int n_columns,
-                                     const double factor, const double *matrix, const double *z,
-                                     const double own, double *result)
-    { blas.GEMV(trans, n, n_columns, factor, matrix, n, z, 1, own, result, 1); };
-    const auto solve_triangle = [this](const Teuchos::ETransp trans, double *z)
+    const auto solve_triangle = [this](const char *op, double *z)
     {
-      blas.TRSM(Teuchos::LEFT_SIDE, Teuchos::UPPER_TRI, trans, Teuchos::NON_UNIT_DIAG, r, 1, 1.,
-                G.data(), n, z, n);
+      constexpr int one = 1;
+      int info;
+      if (r > 0)
+        dealii::trtrs("U", op, "N", &r, &one, G.data(), &n, z, &n, &info);
     };
     // The part of the solution that G prescribes.
     for (int k = 0; k < r; ++k)
       y[k] = scale[rows[k] - 1] * x[n + rows[k] - 1];
-    solve_triangle(Teuchos::TRANS, y.data());
-    multiply_add(Teuchos::NO_TRANS, r, 1., Q.data(), y.data(), 0., q.data());
+    solve_triangle("T", y.data());
+    multiply('N', n, r, 1., Q.data(), y.data(), 0., q.data());
     // The part of the solution that G allows.
     ReducedVector left = b;
-    multiply_add(Teuchos::NO_TRANS, n, -1., A.data(), q.data(), 1., left.data());
+    multiply('N', n, n, -1., A.data(), q.data(), 1., left.data());
     if (f > 0)
     {
+      constexpr int n_rhs = 1;
       int info;
-      multiply_add(Teuchos::TRANS, f, 1., &Q[r * n], left.data(), 0., y.data());
-      lapack.POTRS('L', f, 1, cholesky.data(), f, y.data(), f, &info);
-      multiply_add(Teuchos::NO_TRANS, f, 1., &Q[r * n], y.data(), 1., q.data());
+      multiply('T', n, f, 1., &Q[r * n], left.data(), 0., y.data());
+      dealii::potrs("L", &f, &n_rhs, cholesky.data(), &f, y.data(), &f, &info);
+      multiply('N', n, f, 1., &Q[r * n], y.data(), 1., q.data());
     }
     left = b;
-    multiply_add(Teuchos::NO_TRANS, n, -1., A.data(), q.data(), 1., left.data());
-    multiply_add(Teuchos::TRANS, r, 1., Q.data(), left.data(), 0., y.data());
-    solve_triangle(Teuchos::NO_TRANS, y.data());
+    multiply('N', n, n, -1., A.data(), q.data(), 1., left.data());
+    multiply('T', n, r, 1., Q.data(), left.data(), 0., y.data());
+    solve_triangle("N", y.data());
     std::fill(x.begin(), x.end(), 0.);
     for (int k = 0; k < r; ++k)
       x[n + rows[k] - 1] = scale[rows[k] - 1] * y[k];
