@@ -95,6 +95,11 @@ namespace taut
                height_above_strip(t);
       }
 
+      double profile(const double t) const override
+      {
+        return link.profile(sliding_position(t), t);
+      }
+
       /// Whether the wire of a strip has not begun at a time, or has ended, not by rounding.
       bool is_beyond(const double t) const override
       {

@@ -42,6 +42,7 @@ namespace taut
   std::vector<Warning> AccuracyReport::warnings() const
   {
     std::vector<Warning> result = measures.warnings();
+    result.insert(result.end(), of_steps.begin(), of_steps.end());
     for (const Warning &warning : accuracy ? accuracy->warnings() : std::vector<Warning>())
       result.push_back(warning);
     return result;
@@ -54,6 +55,10 @@ namespace taut
     log << measures.report();
     if (accuracy)
       log << accuracy->report();
+    else if (!reason.empty())
+      log << "Steps: not checked, as " << reason << '\n';
+    for (const Warning &warning : of_steps)
+      log << "  Warning: " << warning.message << '\n';
   }
 
   namespace

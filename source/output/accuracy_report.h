@@ -85,10 +85,12 @@ namespace taut
   class AccuracyReport : public Observer
   {
   public:
-    /// @p measures are kept by reference; without @p accuracy steps are not checked.
-    explicit AccuracyReport(const ContactMeasures &measures,
-                            std::unique_ptr<StepAccuracy> accuracy = nullptr)
-        : measures(measures), accuracy(std::move(accuracy))
+    /// @p measures are kept by reference. Without @p accuracy steps are not checked, for a reason
+    /// in words. @p of_steps are warnings about steps that are known before the run.
+    AccuracyReport(const ContactMeasures &measures, std::unique_ptr<StepAccuracy> accuracy,
+                   std::string reason, std::vector<Warning> of_steps)
+        : measures(measures), accuracy(std::move(accuracy)), reason(std::move(reason)),
+          of_steps(std::move(of_steps))
     {
     }
 
@@ -108,6 +110,8 @@ namespace taut
   private:
     const ContactMeasures &measures;
     const std::unique_ptr<StepAccuracy> accuracy;
+    const std::string reason;
+    const std::vector<Warning> of_steps;
   };
 } // namespace taut
 

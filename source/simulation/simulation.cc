@@ -15,6 +15,7 @@
 #include "output/model_limits.h"
 #include "output/scene_report.h"
 #include "partition/make_partition.h"
+#include "time/excitations.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>
@@ -25,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <ostream>
 
 namespace taut
@@ -84,7 +86,7 @@ namespace taut
       choose_scheme();
     if (has_time() && links.size() > 0)
       log << "Interface operator: " << motion->interface_description() << '\n';
-    accuracy = std::make_unique<AccuracyReport>(motion->measures(), step_accuracy());
+    make_accuracy_report();
     stop_before_start();
     prepare_results(checkpoints.is_found());
     keep_folder(); // which may be new
@@ -170,15 +172,54 @@ namespace taut
     return parameters.unused_scheme_entries(motion->choice().name, motion->choice().entries);
   }
 
-  std::unique_ptr<StepAccuracy> Simulation::step_accuracy()
+  /// Steps that do not see all of the scene are not compared with others, which may not, either.
+  void Simulation::make_accuracy_report()
   {
-    if (parameters.check_steps == "no" || n_steps() == 0)
-      return nullptr;
+    std::vector<Warning> unseen;
+    if (has_time())
+      unseen = unseen_features();
+    std::string reason;
+    std::unique_ptr<StepAccuracy> steps;
     RunInSteps run = {*motion, n_steps(), parameters.check_steps == "yes",
                       warning_of_joints(model)};
-    const bool is_wanted =
-        run.at_any_cost || (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run));
-    return is_wanted ? std::make_unique<StepAccuracy>(std::move(run)) : nullptr;
+    if (!unseen.empty())
+      reason = "something lies between them";
+    else if (parameters.check_steps == "automatic" && parameters.scheme != "automatic")
+      reason = "the Scheme is given by name: set Time/Check steps = yes for it";
+    else if (parameters.check_steps == "automatic" && n_steps() > 0 &&
+             !StepAccuracy::is_affordable(run))
+      reason = "runs with other steps take long: set Time/Check steps = yes for them";
+    else if (parameters.check_steps != "no" && n_steps() > 0)
+      steps = std::make_unique<StepAccuracy>(std::move(run));
+    accuracy = std::make_unique<AccuracyReport>(motion->measures(), std::move(steps),
+                                                n_steps() > 0 ? reason : "", unseen);
+  }
+
+  /// What lies between the steps, as a warning.
+  std::vector<Warning> Simulation::unseen_features() const
+  {
+    const UnseenFeature &feature = motion->unseen_feature();
+    const StepParameters &control = motion->settings().steps;
+    const double shortest = control.shortest(parameters.step);
+    if (feature.name.empty() || shortest <= feature.longest_step())
+      return {};
+    std::string message =
+        to_text(std::setprecision(2), feature.name, " changes for about ", feature.width,
+                " s at t = ", std::setprecision(4), feature.time, " s, ", std::setprecision(2));
+    if (control.adaptive())
+      message += to_text("and the shortest step is ", shortest, " s. Set Adaptive step/Halvings = ",
+                         std::ceil(std::log2(parameters.step / feature.longest_step())));
+    else
+      message += to_text("which steps of ", parameters.step,
+                         " s do not see, or make too much of. Take a step of at most ",
+                         feature.longest_step(), " s, or Step control = adaptive");
+    return {{"feature", message, shortest, feature.longest_step(), "s", feature.time}};
+  }
+
+  std::string Simulation::what_steps_miss() const
+  {
+    const std::vector<Warning> unseen = unseen_features();
+    return unseen.empty() ? "" : unseen.front().message;
   }
 
   /// Called once the scene is known to be valid: before this, the disk is not touched.

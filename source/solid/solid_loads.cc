@@ -54,8 +54,21 @@ namespace taut
           }
         }
       };
+      const auto sample = [&condition, faces](const double t)
+      {
+        constexpr std::size_t most_places = 4;
+        double sum = 0.;
+        for (std::size_t f = 0; f < faces.size(); f += faces.size() / most_places + 1)
+        {
+          const auto &[cell, face] = faces[f];
+          const Coordinates value =
+              condition.value(coordinates<dim>(cell->face(face)->center()), t);
+          sum += value.x + value.y + value.z;
+        }
+        return sum;
+      };
       if (condition.varies)
-        this->add_load(add);
+        this->add_load(add, sample);
       else
       {
         dealii::Vector<double> P(this->n_dofs());

@@ -125,7 +125,7 @@ namespace taut
       const Residuals &worst = recorder.worst_residuals();
       return {with_quantities ? recorder.study_quantities() : std::vector<StudyQuantity>(),
               stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
-              simulation.n_steps()};
+              simulation.n_steps(), simulation.what_steps_miss()};
     }
     catch (const EntryError &e)
     {

@@ -67,6 +67,7 @@ namespace taut
     double seconds = 0.;     ///< processor time of the loop over the steps [s]
     double certificate = 0.; ///< largest residual of any step [1]
     long n_steps = 0;
+    std::string unseen; ///< what lies between its steps, in words; empty: nothing
   };
 
   /// Throws EntryError if the scene cannot be built, or lacks a quantity of its section Study.

@@ -184,7 +184,10 @@ namespace taut
       for (std::size_t k = 0; k < values.size(); ++k)
         log << (k > 0 ? ", " : " ") << result.parameter_lists[k].name << " = " << values[k];
       const MeasuredRun run = run_once(values, false, true);
-      bool done = level > 0;
+      if (!all_exact && !run.unseen.empty() && level + 1 == study.reference_levels)
+        throw UserError("the finest reference does not see all of the scene: " + run.unseen +
+                        "; give finer values, or more Study/Reference levels");
+      bool done = level > 0 && run.unseen.empty();
       for (std::size_t i = 0; i < n; ++i)
       {
         QuantityReference &reference = result.references[i];

@@ -107,6 +107,7 @@ namespace taut
     try
     {
       trial.run = run_once(entries(levels));
+      trial.message = trial.run.unseen;
       for (const StudyQuantity &quantity : trial.run.quantities)
         if (!std::isfinite(quantity.value))
           trial.message = "the quantities are not finite";

@@ -55,8 +55,9 @@ namespace taut
   class FEBody<dim>::Load : public TimeLoad
   {
   public:
-    Load(const FEBody<dim> &body, std::function<void(double, dealii::Vector<double> &)> add)
-        : body(body), add_load(std::move(add))
+    Load(const FEBody<dim> &body, std::function<void(double, dealii::Vector<double> &)> add,
+         std::function<double(double)> sample)
+        : body(body), add_load(std::move(add)), sample_load(std::move(sample))
     {
     }
     void add(const double t, std::vector<double> &P) const override
@@ -66,10 +67,15 @@ namespace taut
       body.check_size(own.size(), "load in time");
       body.condense(own, P);
     }
+    double sample(const double t) const override
+    {
+      return sample_load ? sample_load(t) : TimeLoad::sample(t);
+    }
 
   private:
     const FEBody<dim> &body;
     const std::function<void(double, dealii::Vector<double> &)> add_load;
+    const std::function<double(double)> sample_load;
   };
 
   template <int dim>
@@ -244,11 +250,12 @@ namespace taut
   }
 
   template <int dim>
-  void FEBody<dim>::add_load(std::function<void(double, dealii::Vector<double> &)> add)
+  void FEBody<dim>::add_load(std::function<void(double, dealii::Vector<double> &)> add,
+                             std::function<double(double)> sample)
   {
     if (!add)
       throw UserError("body '" + name() + "': a load in time has no function; hand one over");
-    time_loads.push_back(std::make_unique<Load>(*this, std::move(add)));
+    time_loads.push_back(std::make_unique<Load>(*this, std::move(add), std::move(sample)));
   }
 
   template <int dim>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace taut
 {
@@ -12,82 +13,43 @@ namespace taut
     constexpr int samples_of_reference = 16, fewest_samples = 4, most_samples = 1 << 16;
   } // namespace
 
-  LoadSampling::LoadSampling(const Structure &structure) : structure(structure)
+  LoadSampling::LoadSampling(std::vector<Excitation> excitations, const Communicator &processes,
+                             const double reference_step, const double longest)
+      : all(std::move(excitations)), processes(processes), reference_step(reference_step),
+        between(std::min(reference_step / samples_of_reference, longest)),
+        is_constant(!processes.any(!all.empty())), largest(all.size(), 0.)
   {
-    bool has_motion = false;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      if (structure[k].external_force_varies())
-        varying.push_back(k);
-      has_motion = has_motion || structure[k].has_moving_constraints();
-    }
-    largest_loads.assign(varying.size(), 0.);
-    largest_motions.assign(structure.size(), 0.);
-    is_constant = !structure.communicator().any(has_motion || !varying.empty());
   }
 
   /// Difference of both integrals, over the largest value so far and the reference step.
-  template <typename Sample>
-  double LoadSampling::mismatch(const double t, const double length, const double reference_step,
-                                const Sample &sample, double &largest)
+  double LoadSampling::mismatch(const double t, const double length, const std::size_t i)
   {
-    const double wanted = samples_of_reference * length / reference_step;
-    const int half = static_cast<int>(
-                  std::ceil(.5 * std::clamp<double>(wanted, fewest_samples, most_samples))),
+    const int half = static_cast<int>(std::ceil(
+                  .5 * std::clamp<double>(length / between, fewest_samples, most_samples))),
               n = 2 * half;
-    const double between = length / n;
+    double trapezoids = 0., simpson = 0.;
     for (int j = 0; j <= n; ++j)
     {
-      sample(t + j * between, values);
-      if (j == 0)
-      {
-        sums.trapezoids.assign(values.size(), 0.);
-        sums.simpson.assign(values.size(), 0.);
-      }
-      const double weight = j == 0 || j == n ? .5 : 1., of_simpson = j == 0 || j == n ? 1. / 6.
-                                                                     : j == half      ? 4. / 6.
-                                                                                      : 0.;
-      for (std::size_t i = 0; i < values.size(); ++i)
-      {
-        sums.trapezoids[i] += weight * between * values[i];
-        sums.simpson[i] += of_simpson * length * values[i];
-        largest = std::max(largest, std::fabs(values[i]));
-      }
+      const double value = all[i].at(t + j * length / n);
+      trapezoids += (j == 0 || j == n ? .5 : 1.) * value / n;
+      simpson += (j == 0 || j == n ? 1. / 6. : j == half ? 4. / 6. : 0.) * value;
+      largest[i] = std::max(largest[i], std::fabs(value));
     }
-    double difference = 0.;
-    for (std::size_t i = 0; i < sums.simpson.size(); ++i)
-      difference = std::max(difference, std::fabs(sums.trapezoids[i] - sums.simpson[i]));
-    return difference == 0. ? 0. : difference / (largest * reference_step);
+    const double difference = length * std::fabs(trapezoids - simpson);
+    return difference == 0. ? 0. : difference / (largest[i] * reference_step);
   }
 
-  bool LoadSampling::is_resolved(const double t, const double length, const double reference_step,
-                                 const double tolerance)
+  bool LoadSampling::is_resolved(const double t, const double length, const double tolerance)
   {
     if (is_constant)
       return true;
     double worst = 0.;
-    structure.communicator().agree(
+    processes.agree(
         [&]
         {
-          for (std::size_t v = 0; v < varying.size(); ++v)
-            worst = std::max(worst, mismatch(
-                                        t, length, reference_step,
-                                        [&](const double at, std::vector<double> &P)
-                                        { structure[varying[v]].external_force(at, P); },
-                                        largest_loads[v]));
-          for (std::size_t k = 0; k < structure.size(); ++k)
-            if (structure[k].has_moving_constraints())
-              worst =
-                  std::max(worst, mismatch(
-                                      t, length, reference_step,
-                                      [&](const double at, std::vector<double> &u)
-                                      {
-                                        u.clear();
-                                        for (const ConstrainedDof &dof : structure[k].constraints())
-                                          u.push_back(dof.at(at));
-                                      },
-                                      largest_motions[k]));
+          for (std::size_t i = 0; i < all.size(); ++i)
+            worst = std::max(worst, mismatch(t, length, i));
         });
-    return structure.communicator().max(worst) <= tolerance;
+    return processes.max(worst) <= tolerance;
   }
 } // namespace taut

@@ -43,7 +43,7 @@ namespace taut
     bool is_prepared = false; ///< the other parts, for the method
     NonlinearStep nonlinear;
     Step step;
-    LoadSampling loads;
+    std::unique_ptr<LoadSampling> loads; ///< of adaptive steps
     LocalError errors;
     std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
     StepControl control;
@@ -63,7 +63,7 @@ namespace taut
         nonlinear(structure, constraints, initial.reference, method),
         step(structure, constraints, options.solver, initial.reference, method, nonlinear.bodies(),
              nonlinear.constraints(), state),
-        loads(structure), errors(structure, constraints, initial.reference),
+        errors(structure, constraints, initial.reference),
         control(options.steps, options.step, n_steps, !nonlinear.is_linear(), longest_steps),
         length(options.step), segment_start(state.time)
   {
@@ -535,10 +535,23 @@ namespace taut
                                  parts->step.history().forces().old_A);
   }
 
-  bool Motion::resolves_loads(const double length, const double reference_step,
-                              const double tolerance)
+  const UnseenFeature &Motion::unseen_feature()
   {
-    return parts->loads.is_resolved(parts->state.time, length, reference_step, tolerance);
+    if (!unseen)
+      unseen = std::make_unique<UnseenFeature>(
+          parts ? find_unseen_feature(excitations(structure, constraints), structure.communicator(),
+                                      initial.state.time, options.step, parts->control.n_steps())
+                : UnseenFeature());
+    return *unseen;
+  }
+
+  bool Motion::resolves_loads(const double length, const double tolerance)
+  {
+    if (!parts->loads)
+      parts->loads = std::make_unique<LoadSampling>(
+          excitations(structure, constraints), structure.communicator(), options.step,
+          unseen_feature().longest_step());
+    return parts->loads->is_resolved(parts->state.time, length, tolerance);
   }
 
   std::string Motion::interface_description() const

@@ -174,7 +174,7 @@ namespace taut
     double error = 0.;
     for (;;)
     {
-      while (level > 0 && !motion.resolves_loads(shortest * length(), step, parameters.tolerance))
+      while (level > 0 && !motion.resolves_loads(shortest * length(), parameters.tolerance))
         --level;
       solve(motion);
       error = motion.local_error() / parameters.tolerance;

@@ -42,6 +42,9 @@ namespace taut
     /// True at multiples of the given step.
     bool is_at_step() const { return position % (1L << n_levels) == 0; }
 
+    /// Of the given step.
+    long n_steps() const { return end >> n_levels; }
+
     /// Advances by one accepted step. After any exception it and the motion are as before.
     void advance(Motion &motion);
 

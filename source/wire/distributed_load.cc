@@ -165,4 +165,15 @@ namespace taut
     }
     check.end();
   }
+
+  /// The sum at a few places.
+  double WireComponent::DistributedLoad::sample(const double t) const
+  {
+    constexpr std::size_t most_places = 8;
+    const std::size_t stride = is_uniform ? elements.size() : elements.size() / most_places + 1;
+    double sum = 0.;
+    for (std::size_t e = stride / 2; e < elements.size(); e += stride)
+      sum += magnitude(elements[e].places[0], t);
+    return sum;
+  }
 } // namespace taut

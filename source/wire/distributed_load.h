@@ -27,6 +27,7 @@ namespace taut
     DistributedLoad(const WireComponent &wire, double factor, const Load &load);
 
     void add(double t, std::vector<double> &P) const override;
+    double sample(double t) const override;
 
   private:
     struct Element

@@ -89,6 +89,12 @@ namespace taut
       shape.add_to(factor * load.magnitude(s, t), P);
     }
 
+    double sample(const double t) const override
+    {
+      const double s = load.target.position + way(load, t);
+      return s < 0. || s > wire.wire_length ? 0. : load.magnitude(s, t);
+    }
+
   private:
     const WireComponent &wire;
     Load load;

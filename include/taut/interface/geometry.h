@@ -60,6 +60,10 @@ namespace taut
     /// is open then. Its terms and gap are those at this end of the body.
     virtual bool is_beyond(double /*t*/) const { return false; }
 
+    /// The part of the gap that a formula or table gives, at any time and without communication
+    /// [m].
+    virtual double profile(const double t) const { return gap(t); }
+
     /// B U of a linear form at a time near the start of a step, over all ranks [m].
     using Motion = std::function<double(const std::vector<Term> &form, double t)>;
 

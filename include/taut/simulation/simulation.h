@@ -70,6 +70,9 @@ namespace taut
     /// have.
     std::vector<NamedQuantity> observed_quantities() const;
 
+    /// After a run in time: what lies between its steps, unseen, in words; empty: nothing.
+    std::string what_steps_miss() const;
+
     /// Number of steps that fit into the time of the run.
     long n_steps() const;
 
@@ -96,7 +99,8 @@ namespace taut
     void write_start(const ScenePlaces &places, const std::vector<double> &heights) const;
     void write_droppers(const ScenePlaces &places, const std::vector<double> &heights) const;
     void add_observers();
-    std::unique_ptr<StepAccuracy> step_accuracy();
+    void make_accuracy_report();
+    std::vector<Warning> unseen_features() const;
     int signal() const;
     void stop_before_start() const;
     void step_to_the_end();

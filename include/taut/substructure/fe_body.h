@@ -83,8 +83,10 @@ namespace taut
            const dealii::AffineConstraints<double> &constraints,
            const dealii::Vector<double> &load = {}, const Options &options = Options());
 
-    /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF.
-    void add_load(std::function<void(double t, dealii::Vector<double> &P)> add);
+    /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF. With a
+    /// @p sample, see TimeLoad::sample(), runs look for pulses of the load between their steps.
+    void add_load(std::function<void(double t, dealii::Vector<double> &P)> add,
+                  std::function<double(double)> sample = {});
 
     /// Adds a constant load, one entry a DoF [N]. Throws UserError for a load of another size, or a
     /// load that is not finite.

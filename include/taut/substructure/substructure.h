@@ -8,6 +8,7 @@
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,11 @@ namespace taut
 
     /// P += the force at time t [s].
     virtual void add(double t, std::vector<double> &P) const = 0;
+
+    /// A number that changes in time as the force does, such as its size or the sum of its sizes at
+    /// a few places [N]. The search for pulses between the steps evaluates it many times; not a
+    /// number: this load is not searched.
+    virtual double sample(double /*t*/) const { return std::numeric_limits<double>::quiet_NaN(); }
   };
 
   /// A DoF whose displacement is prescribed.
@@ -88,6 +94,9 @@ namespace taut
 
     /// The whole external force at time t [s]; P is resized. [N, N m]
     void external_force(double t, std::vector<double> &P) const;
+
+    /// The parts of the external force that change in time.
+    const std::vector<std::shared_ptr<const TimeLoad>> &loads_in_time() const { return time_loads; }
 
     /// True if the external force changes in time.
     bool external_force_varies() const { return !time_loads.empty(); }
@@ -253,6 +262,7 @@ namespace taut
     {
     }
     void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }
+    double sample(const double t) const override { return magnitude(t); }
 
     /// The fault that makes this no load on @p n_dofs DoFs, as a part of a message; empty: none.
     std::string fault(std::size_t n_dofs) const

@@ -22,6 +22,7 @@ namespace taut
 {
   class ContactResolution;
   struct LongestStep;
+  struct UnseenFeature;
   struct InterfaceStatistics;
 
   /// Options of a motion; the defaults suit most systems.
@@ -159,6 +160,11 @@ namespace taut
     /// Calls Substructure::load() of a body of this rank.
     void load_body(const std::size_t k, InputArchive &archive) { structure.load(k, archive); }
 
+    /// What steps of StepperOptions::step do not see of loads, prescribed motions and heights; no
+    /// name: nothing, or the number of steps is not known. The first call searches. Called by all
+    /// ranks together.
+    const UnseenFeature &unseen_feature();
+
     // For StepControl:
 
     /// Makes one step of this length [s], certified. After any exception the motion is that before.
@@ -175,7 +181,7 @@ namespace taut
 
     /// True if the next step, of @p length [s], resolves loads and prescribed motions, see
     /// LoadSampling.
-    bool resolves_loads(double length, double reference_step, double tolerance);
+    bool resolves_loads(double length, double tolerance);
 
   private:
     /// The parts of a prepared motion.
@@ -210,6 +216,7 @@ namespace taut
     std::shared_ptr<const TimeIntegrator> first_scheme; ///< of the first step
     std::vector<LongestStep> longest_steps;             ///< of constraints with dampers
     std::unique_ptr<Parts> parts;
+    std::unique_ptr<UnseenFeature> unseen; ///< after the first search
     std::vector<std::vector<double>> first_courses; ///< of sliding rows at the start
     const StepReport no_report;                     ///< before the first step
     StepCosts no_costs;                             ///< of a motion that is not prepared

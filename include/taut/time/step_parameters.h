@@ -24,6 +24,13 @@ namespace taut
 
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// The shortest step about a given one [s].
+    double shortest(const double step) const
+    {
+      return adaptive() ? std::ldexp(step, -static_cast<int>(n_halvings)) : step;
+    }
+
     bool adaptive() const { return control == "adaptive"; }
 
     /// Maximum number of doublings of a Step [s].

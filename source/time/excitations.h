@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_excitations_h
+#define taut_excitations_h
+
+#include <taut/interface/constraints.h>
+#include <taut/substructure/structure.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A function of time that acts on the bodies: a load, a prescribed place, or the height under a
+  /// sliding constraint.
+  struct Excitation
+  {
+    std::string name;   ///< "the load on 'mast'"
+    std::string origin; ///< section of its body or constraint in the parameter file; may be empty
+    bool is_load;       ///< acts by its impulse; else a place [m, rad]
+    bool is_costly;     ///< a value costs as much as all forces of the load
+    std::function<double(double)> at; ///< value at a time [s]; of a load in space a sum of samples
+  };
+
+  /// The excitations of the bodies of this rank, then, the same on all ranks, those of the
+  /// constraints. The arguments are kept by reference.
+  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints);
+
+  /// What steps of one length do not see of an excitation.
+  struct UnseenFeature
+  {
+    std::string name, origin;                               ///< of the excitation; empty name: none
+    double time = 0.;                                       ///< where most is lost [s]
+    double width = std::numeric_limits<double>::infinity(); ///< of a block of the same height and
+                                                            ///< area there [s]
+
+    /// The longest step that sees it: four in its width. Infinite: there is none.
+    double longest_step() const { return .25 * width; }
+  };
+
+  /**
+   * Looks for the narrowest feature of the excitations that the ends of steps do not see, in @p
+   * n_steps steps of length @p step from @p start on [s]. A run is sampled at least twenty thousand
+   * times and each step eight times; a feature narrower than that may be missed. Loads without a
+   * sample of their own and runs of more than ten million steps are not searched.
+   *
+   * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
+   * between the ends of steps, both from the value at the start. A load is seen if their difference
+   * in ten steps is at most a tenth of the largest area in ten steps. So a jump inside a step is
+   * seen: it is late by a part of a step. Of a sine the fifth of a period is seen. A place also has
+   * to stay within its values at both ends of each step, by a tenth of its range. Called by all
+   * ranks together.
+   */
+  UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
+                                    const Communicator &processes, double start, double step,
+                                    long n_steps);
+} // namespace taut
+
+#endif
