@@ -24,7 +24,7 @@ namespace taut
   {
     const bool is_start = step.state.last_step == 0.;
     if (accuracy && !is_start)
-      accuracy->record(step.state, step.report);
+      accuracy->record(step.state, step.report, step.residuals);
   }
 
   void AccuracyReport::save(OutputArchive &archive)
@@ -113,24 +113,31 @@ namespace taut
              std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
     }
 
-    double work_of(const RunInSteps &run)
+    /// Of one solution of all bodies.
+    double work_of_solution(const RunInSteps &run)
     {
-      double n_dofs = 0., n_nonlinear = 0.;
+      double n_dofs = 0.;
       for (const Structure::Body &body : run.motion.bodies().all_bodies())
         n_dofs += static_cast<double>(body.n_dofs);
+      return work_of_step + n_dofs + static_cast<double>(run.motion.links().size());
+    }
+
+    /// An estimate before the run.
+    double work_of(const RunInSteps &run)
+    {
+      double n_nonlinear = 0.;
       for (std::size_t k = 0; k < run.motion.bodies().size(); ++k)
         n_nonlinear += !run.motion.bodies()[k].is_linear();
       run.motion.bodies().communicator().sum(&n_nonlinear, 1);
       const double solutions = n_nonlinear > 0.                             ? work_of_newton
                                : !run.motion.links().turning_rows().empty() ? work_of_turning
                                                                             : 1.;
-      return static_cast<double>(run.n_steps) *
-             (work_of_step + n_dofs + static_cast<double>(run.motion.links().size())) * solutions;
+      return static_cast<double>(run.n_steps) * work_of_solution(run) * solutions;
     }
 
     bool has_longer_steps(const RunInSteps &run)
     {
-      return !run.motion.settings().steps.adaptive() && run.n_steps >= least_steps;
+      return run.n_steps >= least_steps;
     }
 
     std::string percent(const double part)
@@ -210,17 +217,29 @@ namespace taut
       reason = "a body keeps a state of its own";
       return;
     }
-    std::optional<MotionDifference> coarse;
-    if (has_longer_steps(run))
-      coarse = compare(ratio_of_steps, stop);
+    const double n_solutions = run.motion.is_linear()
+                                   ? static_cast<double>(n_steps + run.motion.n_repeated())
+                                   : static_cast<double>(run.motion.n_newton_iterations());
+    work = n_solutions * work_of_solution(run) +
+           static_cast<double>(n_iterations) *
+               (work_of_step + static_cast<double>(run.motion.links().size()));
     const bool affords_shorter = affords(1. / ratio_of_steps);
+    std::optional<MotionDifference> coarse;
+    // A looser tolerance says less than a tighter one.
+    if (has_longer_steps(run) && affords(ratio_of_steps) &&
+        !(affords_shorter && run.motion.settings().steps.adaptive()))
+      coarse = compare(ratio_of_steps, stop);
     if (coarse && (coarse->over_bounds() <= agrees || !affords_shorter))
     {
       extrapolate(*coarse);
       return;
     }
     if (!affords_shorter)
+    {
+      if (reason.empty())
+        reason = "runs with other steps take long: set Time/Check steps = yes for them";
       return;
+    }
     found = compare(1. / ratio_of_steps, stop);
     if (!found)
       return;

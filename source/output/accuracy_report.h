@@ -34,7 +34,8 @@ namespace taut
    * difference. Otherwise the other run has a step that is shorter by this factor, and near the
    * bounds by its square (L. F. Richardson's extrapolation, 1911, with an order from one to two).
    * Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step. If shorter steps
-   * cost too much, the longer steps give a rough error.
+   * cost too much, the longer steps, or a looser tolerance, give a rough error. What a run costs is
+   * counted from the run itself: its steps, repetitions and iterations.
    */
   class StepAccuracy
   {
@@ -45,7 +46,12 @@ namespace taut
     static bool is_affordable(const RunInSteps &run);
 
     /// Records an accepted step of the run itself.
-    void record(const State &state, const StepReport &report) { own.record(state, report); }
+    void record(const State &state, const StepReport &report, const Residuals &residuals)
+    {
+      own.record(state, report);
+      ++n_steps;
+      n_iterations += residuals.iterations;
+    }
 
     /// Makes the other runs. After each step @p stop may end them. Called by all ranks together.
     void measure(const std::function<bool()> &stop);
@@ -71,7 +77,8 @@ namespace taut
 
     const RunInSteps run;
     const ConnectedBodies groups;
-    const double work; ///< of the run: DoFs times steps
+    double work;                        ///< of the run: DoFs times solves; estimated, then counted
+    long n_steps = 0, n_iterations = 0; ///< steps made, and iterations of the contact solver
     const std::size_t n_samples;
     const double interval; ///< between samples [s]
     MotionRecord own;

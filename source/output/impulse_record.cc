@@ -1,32 +1,90 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "output/distance_to_range.h"
 
+#include "base/gather_entries.h"
 #include "output/impulse_record.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace taut
 {
   namespace
   {
-    /// Ends of steps with impulses; of more steps every second one, or fourth, and so on. Even, so
-    /// that the last one is kept.
-    constexpr std::size_t most_ends = 16000;
+    /// Ends of steps with impulses, fewest and most, and numbers at these ends; of more steps every
+    /// second one is kept, or fourth, and so on. Even, so that the last one is kept.
+    constexpr std::size_t fewest_ends = 1000, most_ends_of_few = 16000, most_numbers = 1000000;
+
+    /// Constraints between the same bodies that may share an impulse.
+    constexpr std::size_t least_shared = 3;
+
+    /// The lumped bodies that a fixed unilateral constraint acts on, by number; empty: others, too.
+    std::vector<std::vector<std::size_t>> lumped_ends(const Structure &structure,
+                                                      const Constraints &constraints)
+    {
+      MatrixEntries acts_on;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        for (const std::vector<Term> *const form : constraints[i].forms())
+          for (const Term &term : *form)
+            acts_on.add(i, structure.number(term.substructure),
+                        structure[term.substructure].is_lumped());
+      gather(structure.communicator(), acts_on);
+      std::vector<std::vector<std::size_t>> ends(constraints.size());
+      std::vector<char> is_shared(constraints.size(), 0);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        is_shared[i] = constraints[i].cone.may_open() && !constraints.slides(i);
+      for (std::size_t e = 0; e < acts_on.size(); ++e)
+      {
+        ends[acts_on.row[e]].push_back(acts_on.column[e]);
+        if (acts_on.value[e] == 0.)
+          is_shared[acts_on.row[e]] = 0;
+      }
+      for (std::size_t i = 0; i < ends.size(); ++i)
+      {
+        std::sort(ends[i].begin(), ends[i].end());
+        ends[i].erase(std::unique(ends[i].begin(), ends[i].end()), ends[i].end());
+        if (!is_shared[i])
+          ends[i].clear();
+      }
+      return ends;
+    }
   } // namespace
 
-  ImpulseRecord::ImpulseRecord(const State &start)
-      : impulse(start.multiplier.size(), 0.), multiplier(start.multiplier), times(1, start.time),
-        impulses(impulse)
+  ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
+                               const ConnectedBodies &groups, const State &start)
+      : multiplier(start.multiplier), times(1, start.time)
   {
+    const auto ends = lumped_ends(structure, constraints);
+    std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> rows;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      rows[{ends[i], constraints[i].rotational}].push_back(i);
+    item_of.resize(ends.size());
+    for (std::size_t i = 0; i < ends.size(); ++i)
+    {
+      const std::vector<std::size_t> &alike = rows[{ends[i], constraints[i].rotational}];
+      const bool is_shared = !ends[i].empty() && alike.size() >= least_shared;
+      if (is_shared && alike.front() < i)
+      {
+        item_of[i] = item_of[alike.front()];
+        continue;
+      }
+      item_of[i] = items.size();
+      items.push_back({i, 2 * groups.of_constraint(i) + constraints[i].rotational});
+    }
+    most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, items.size()), fewest_ends,
+                           most_ends_of_few) /
+                2 * 2;
+    impulse.assign(items.size(), 0.);
+    impulses = impulse;
   }
 
   void ImpulseRecord::record(const State &state, const StepReport &report)
   {
-    for (std::size_t i = 0; i < impulse.size(); ++i)
+    for (std::size_t i = 0; i < multiplier.size(); ++i)
     {
       const double N = state.multiplier[i];
-      impulse[i] += (report.is_mean(i) ? N : .5 * (N + multiplier[i])) * state.last_step;
+      impulse[item_of[i]] += (report.is_mean(i) ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
     if (++n_steps % stride != 0)
@@ -70,7 +128,6 @@ namespace taut
   }
 
   std::pair<double, std::size_t> ImpulseRecord::difference(const ImpulseRecord &other,
-                                                           const ConnectedBodies &groups,
                                                            std::vector<double> largest,
                                                            const std::vector<double> &late,
                                                            const double rounding) const
@@ -79,27 +136,28 @@ namespace taut
     if (other.times.size() < 2)
       return result;
     const std::vector<double> others = other.at(times);
-    const std::size_t n = impulse.size();
-    for (std::size_t e = 0; e < others.size(); ++e)
-    {
-      double &of_group = largest[groups.of_constraint(e % n)];
-      of_group = std::max(of_group, std::fabs(others[e]));
-    }
+    const std::size_t n = items.size();
+    for (const std::vector<double> *const all : {&impulses, &others})
+      for (std::size_t e = 0; e < all->size(); ++e)
+      {
+        double &of_group = largest[items[e % n].group];
+        of_group = std::max(of_group, std::fabs((*all)[e]));
+      }
     for (std::size_t k = 0; k < times.size() && times[k] <= other.times.back() + rounding; ++k)
       for (std::size_t i = 0; i < n; ++i)
       {
-        const std::size_t g = groups.of_constraint(i);
+        const std::size_t q = items[i].group;
         std::size_t first = k > 0 ? k - 1 : 0, last = std::min(k + 1, times.size() - 1);
-        while (first > 0 && times[k] - times[first] < late[g])
+        while (first > 0 && times[k] - times[first] < late[q])
           --first;
-        while (last + 1 < times.size() && times[last] - times[k] < late[g])
+        while (last + 1 < times.size() && times[last] - times[k] < late[q])
           ++last;
         const double d =
             ratio(distance_to_range(impulses[k * n + i], first, last,
                                     [&](const std::size_t j) { return others[j * n + i]; }),
-                  largest[g]);
+                  largest[q]);
         if (d > result.first || d != d)
-          result = {d, i};
+          result = {d, items[i].row};
       }
     return result;
   }

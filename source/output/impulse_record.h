@@ -12,26 +12,34 @@
 
 namespace taut
 {
-  /// Impulses of constraints since the start, at the ends of steps. Use it to compare contacts of
-  /// runs in other steps: a contact may be shorter than an interval between samples. A long run
-  /// keeps every second end, fourth end, and so on.
+  /**
+   * Impulses of constraints since the start, at the ends of steps. Use it to compare contacts of
+   * runs in other steps: a contact may be shorter than an interval between samples. A long run
+   * keeps every second end, fourth end, and so on.
+   *
+   * Three or more unilateral constraints between the same lumped bodies may share an impulse in any
+   * way, as the legs of a box do. Their sum counts.
+   */
   class ImpulseRecord
   {
   public:
-    explicit ImpulseRecord(const State &start);
+    /// Called by all ranks together.
+    ImpulseRecord(const Structure &structure, const Constraints &constraints,
+                  const ConnectedBodies &groups, const State &start);
 
     /// Records an accepted step.
     void record(const State &state, const StepReport &report);
 
     /**
      * The largest difference from the other impulses, and its constraint; -1: nothing differs. The
-     * difference is relative to the largest other impulse of the group, or to @p largest [N s] of
-     * the group if that is more. An impulse may be early or late by @p late [s] of the group, or by
-     * one end of a step. The comparison ends with the other run, but for @p rounding [s].
+     * difference is relative to the largest impulse of the group and kind in both runs, or to @p
+     * largest [N s, N m s] of them if that is more. An impulse may be early or late by @p late [s],
+     * or by one end of a step. The comparison ends with the other run, but for @p rounding [s].
      */
-    std::pair<double, std::size_t>
-    difference(const ImpulseRecord &other, const ConnectedBodies &groups,
-               std::vector<double> largest, const std::vector<double> &late, double rounding) const;
+    std::pair<double, std::size_t> difference(const ImpulseRecord &other,
+                                              std::vector<double> largest,
+                                              const std::vector<double> &late,
+                                              double rounding) const;
 
     /// Saves or loads.
     template <typename Archive>
@@ -44,10 +52,21 @@ namespace taut
     void keep_every_second_end();
     std::vector<double> at(const std::vector<double> &instants) const;
 
-    std::vector<double> impulse, multiplier; ///< impulse so far; multiplier of the last step
-    std::vector<double> times;               ///< ends of steps with recorded impulses [s]
-    std::vector<double> impulses;            ///< of all constraints, time after time [N s]
-    long stride = 1, n_steps = 0;            ///< one of so many ends is kept; steps so far
+    /// A constraint, or some that share an impulse.
+    struct Item
+    {
+      std::size_t row;   ///< the first one
+      std::size_t group; ///< 2 g, or 2 g + 1 of rotational ones
+    };
+    std::vector<Item> items;
+    std::vector<std::size_t> item_of; ///< of each constraint
+    std::size_t most_ends;            ///< that are kept; even
+
+    std::vector<double> impulse;    ///< of the items so far [N s, N m s]
+    std::vector<double> multiplier; ///< of the constraints in the last step
+    std::vector<double> times;      ///< ends of steps with recorded impulses [s]
+    std::vector<double> impulses;   ///< of all items, time after time
+    long stride = 1, n_steps = 0;   ///< one of so many ends is kept; steps so far
   };
 } // namespace taut
 

@@ -12,14 +12,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace taut
 {
   namespace
   {
-    /// Part of the displacements of a group below which its motion is rounding.
-    constexpr double rounding_of_places = 1e-9;
+    /// Part of the displacements of a group below which its motion is rounding, and of the way that
+    /// its loads would make alone: a force that others balance rounds by this part of itself.
+    constexpr double rounding_of_places = 1e-9, rounding_of_forces = 1e-15;
+
+    /// Recorded places of this rank, if bodies have more.
+    constexpr std::size_t most_places = 2000;
+
+    /// Prescribed DoFs of a group that others may ride on.
+    constexpr std::size_t most_bases = 3;
 
     /// Part of the largest momentum below which impulses are ignored.
     constexpr double least_impulse = 1e-3;
@@ -57,23 +65,34 @@ namespace taut
                              const ConnectedBodies &groups, const Reference &reference,
                              const State &start, const double interval, const std::size_t n)
       : structure(structure), constraints(constraints), groups(groups), reference(reference),
-        begin(start.time), interval(interval), n(n), impulses(start)
+        begin(start.time), interval(interval), n(n), impulses(structure, constraints, groups, start)
   {
+    std::size_t n_all = 0;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      n_all += structure[k].n_dofs();
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
       std::vector<unsigned int> inner; // multipliers of internal constraints
       if (dynamic_cast<const ConstrainedBody *>(&body))
         inner = body.dofs_without_mass();
-      const std::size_t first = dofs.size();
+      std::vector<Place> own;
       for (unsigned int i = 0; i < body.n_dofs(); ++i)
-        if (body.kind(i) == 0 && std::find(inner.begin(), inner.end(), i) == inner.end())
-        {
-          dofs.push_back({k, i, groups.of_body(k)});
-          start_of_dofs.push_back(start.U[k][i]);
-        }
+        if ((body.kind(i) == 0 || body.is_lumped()) &&
+            std::find(inner.begin(), inner.end(), i) == inner.end())
+          own.push_back({k, i, 2 * groups.of_body(k) + body.kind(i), false});
+      for (const ConstrainedDof &constraint : body.constraints())
+        for (Place &place : own)
+          place.is_prescribed = place.is_prescribed || place.dof == constraint.dof;
+      const std::size_t first = dofs.size(),
+                        stride = body.is_lumped() ? 1 : n_all / most_places + 1;
+      for (std::size_t j = 0; j < own.size(); j += stride)
+      {
+        dofs.push_back(own[j]);
+        start_of_dofs.push_back(start.U[k][own[j].dof]);
+      }
       if (dofs.size() > first)
-        bodies.push_back({k, first, dofs.size(), !inner.empty()});
+        bodies.push_back({k, first, dofs.size(), groups.of_body(k)});
       body.external_force(start.time, work);
       start_load.push_back(reference.force[k]);
       for (std::size_t i = 0; i < work.size(); ++i)
@@ -82,23 +101,17 @@ namespace taut
     places.reserve(n * dofs.size());
     energies.reserve((n + 1) * groups.n_groups());
     add_energies(start);
-    speed.assign(groups.n_groups(), 0.);
+    speed.assign(2 * groups.n_groups(), 0.);
   }
 
   void MotionRecord::add_speeds(const State &state)
   {
-    for (const auto &[k, first, end, has_inner] : bodies)
-    {
-      const std::vector<double> &dU = state.dU[k];
-      double motion = 0.;
-      if (has_inner)
-        for (std::size_t j = first; j < end; ++j)
-          motion = std::max(motion, std::fabs(dU[dofs[j].dof]));
-      else
-        motion = max_norms(structure[k], dU)[0];
-      double &fastest = speed[dofs[first].group];
-      fastest = std::max(fastest, motion / state.last_step);
-    }
+    for (const auto &[k, first, end, group] : bodies)
+      for (std::size_t j = first; j < end; ++j)
+      {
+        double &fastest = speed[dofs[j].group];
+        fastest = std::max(fastest, std::fabs(state.dU[k][dofs[j].dof]) / state.last_step);
+      }
   }
 
   /// Places at a part of the last step.
@@ -107,7 +120,7 @@ namespace taut
     const double left = 1. - part, h = state.last_step;
     places.resize(places.size() + dofs.size());
     double *const sample = places.data() + n_recorded++ * dofs.size();
-    for (const auto &[k, first, end, has_inner] : bodies)
+    for (const auto &[k, first, end, group] : bodies)
     {
       const double *const U = state.U[k].data(), *const dU = state.dU[k].data(),
                           *const V = state.V[k].data(), *const V_old = state.V_old[k].data();
@@ -167,51 +180,159 @@ namespace taut
     }
   }
 
-  /// Largest values of the groups over all ranks.
+  /// Largest values over all ranks. Places, impulses and delays by group and kind.
   struct MotionRecord::Sizes
   {
-    std::vector<double> place, energy;
-    std::vector<double> impulse; ///< below which impulses are not compared [N s]
+    std::vector<double> place;   ///< 0: rounding
+    std::vector<double> impulse; ///< below which impulses are not compared [N s, N m s]
     std::vector<double> late;    ///< tolerated shift of an impact [s]
-    Energies energies;           ///< over all ranks
+    std::vector<double> energy;  ///< by group [J]
+
+    void add(const Sizes &other)
+    {
+      const auto raise = [](std::vector<double> &a, const std::vector<double> &b)
+      {
+        for (std::size_t i = 0; i < a.size(); ++i)
+          a[i] = std::max(a[i], b[i]);
+      };
+      raise(place, other.place);
+      raise(impulse, other.impulse);
+      raise(late, other.late);
+      raise(energy, other.energy);
+    }
   };
+
+  /// The recorded motions of prescribed DoFs that move, base after base and sample by sample, the
+  /// same on all ranks. Of each group some DoFs of the first body with one count.
+  std::vector<double> MotionRecord::bases(std::vector<std::size_t> &groups_of_bases) const
+  {
+    const Communicator &all = structure.communicator();
+    const std::size_t n_groups = groups.n_groups();
+    std::vector<std::vector<std::size_t>> own(n_groups); // places of the first body of this rank
+    std::vector<double> first(n_groups, -std::numeric_limits<double>::infinity());
+    for (std::size_t j = 0; j < dofs.size(); ++j)
+      if (const std::size_t g = dofs[j].group / 2; dofs[j].is_prescribed && dofs[j].group % 2 == 0)
+      {
+        const double number = -static_cast<double>(structure.number(dofs[j].body));
+        if (own[g].empty())
+          first[g] = number;
+        bool moves = false;
+        for (std::size_t s = 0; s < n_samples() && !moves; ++s)
+          moves = places[s * dofs.size() + j] != 0.;
+        if (moves && first[g] == number && own[g].size() < most_bases)
+          own[g].push_back(j);
+      }
+    groups_of_bases.clear();
+    std::vector<double> result;
+    for (std::size_t g = 0; g < n_groups; ++g)
+    {
+      if (own[g].empty())
+        first[g] = -std::numeric_limits<double>::infinity();
+      const double number = all.max(first[g]);
+      if (!std::isfinite(number))
+        continue;
+      for (std::size_t b = 0; b < most_bases; ++b)
+      {
+        groups_of_bases.push_back(g);
+        for (std::size_t s = 0; s < n_samples(); ++s)
+          result.push_back(
+              first[g] == number && b < own[g].size() ? places[s * dofs.size() + own[g][b]] : 0.);
+      }
+    }
+    all.sum(result);
+    return result;
+  }
+
+  /// The largest motion of a place, or that relative to a base of its group if this is less.
+  double MotionRecord::own_size(const std::size_t j,
+                                const std::vector<std::size_t> &groups_of_bases,
+                                const std::vector<double> &motions) const
+  {
+    const auto largest = [&](const double *base)
+    {
+      double size = 0.;
+      for (std::size_t s = 0; s < n_samples(); ++s)
+        size = std::max(size,
+                        std::fabs(places[s * dofs.size() + j] - (base == nullptr ? 0. : base[s])));
+      return size;
+    };
+    double result = largest(nullptr);
+    for (std::size_t b = 0; b < groups_of_bases.size() && dofs[j].group % 2 == 0; ++b)
+      if (groups_of_bases[b] == dofs[j].group / 2)
+        result = std::min(result, largest(motions.data() + b * n_samples()));
+    return result;
+  }
+
+  /// What rounding of balanced loads moves each group by in the time of the record [m].
+  std::vector<double> MotionRecord::rounding() const
+  {
+    const std::size_t n_groups = groups.n_groups();
+    std::vector<double> of_groups(2 * n_groups, 0.); // masses and loads
+    const std::vector<double> masses = total_masses(structure);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::size_t g = groups.of_body(k);
+      of_groups[2 * g] += masses[k];
+      for (unsigned int i = 0; i < structure[k].n_dofs(); ++i)
+        if (structure[k].kind(i) == 0)
+          of_groups[2 * g + 1] += std::fabs(start_load[k][i]);
+    }
+    structure.communicator().sum(of_groups);
+    std::vector<double> result;
+    const double time = interval * static_cast<double>(n_samples());
+    for (std::size_t g = 0; g < n_groups; ++g)
+      result.push_back(rounding_of_forces * .5 * time * time *
+                       (of_groups[2 * g] > 0. ? of_groups[2 * g + 1] / of_groups[2 * g] : 0.));
+    return result;
+  }
 
   MotionRecord::Sizes MotionRecord::sizes() const
   {
+    const Communicator &all = structure.communicator();
     const std::size_t n_groups = groups.n_groups();
-    std::vector<double> place(n_groups, 0.), whole(n_groups, 0.), kinetic(n_groups, 0.);
-    for (std::size_t s = 0; s < n_samples(); ++s)
-      for (std::size_t j = 0; j < dofs.size(); ++j)
-      {
-        const auto &[k, i, g] = dofs[j];
-        const double u = places[s * dofs.size() + j];
-        place[g] = std::max(place[g], std::fabs(u));
-        whole[g] =
-            std::max(whole[g], std::fabs(u + start_of_dofs[j] + reference.displacement[k][i]));
-      }
+    std::vector<std::size_t> groups_of_bases;
+    const std::vector<double> motions = bases(groups_of_bases), forces = rounding();
+    std::vector<double> place(2 * n_groups, 0.), whole(2 * n_groups, 0.);
+    for (std::size_t j = 0; j < dofs.size(); ++j)
+    {
+      const auto &[k, i, q, is_prescribed] = dofs[j];
+      whole[q] = std::max(whole[q], std::fabs(start_of_dofs[j] + reference.displacement[k][i]));
+      if (!is_prescribed)
+        place[q] = std::max(place[q], own_size(j, groups_of_bases, motions));
+    }
+    const Energies of_all = energies_of_all();
     Sizes result;
-    result.impulse.assign(n_groups, 0.);
-    result.energies = energies;
-    for (std::array<double, 2> &energy : result.energies)
-      structure.communicator().sum(energy.data(), 2);
     for (std::size_t g = 0; g < n_groups; ++g)
     {
-      const Communicator &all = structure.communicator();
-      const double largest = all.max(place[g]), fastest = all.max(speed[g]);
-      result.place.push_back(largest > rounding_of_places * all.max(whole[g]) ? largest : 0.);
-      double least = result.energies[g][1], most = least;
-      for (std::size_t e = g; e < result.energies.size(); e += n_groups)
+      double kinetic = 0., least = of_all[g][1], most = least;
+      for (std::size_t e = g; e < of_all.size(); e += n_groups)
       {
-        kinetic[g] = std::max(kinetic[g], result.energies[e][0]);
-        least = std::min(least, result.energies[e][1]);
-        most = std::max(most, result.energies[e][1]);
+        kinetic = std::max(kinetic, of_all[e][0]);
+        least = std::min(least, of_all[e][1]);
+        most = std::max(most, of_all[e][1]);
       }
-      result.energy.push_back(std::max(kinetic[g], most - least));
-      result.late.push_back(
-          ratio(part_of_lateness * MotionDifference::place_bound * largest, fastest));
-      // 2 T / v of bodies with speeds up to v is at most their momentum.
-      result.impulse[g] = least_impulse * ratio(2. * kinetic[g], fastest);
+      result.energy.push_back(std::max(kinetic, most - least));
+      for (std::size_t q = 2 * g; q < 2 * g + 2; ++q)
+      {
+        const double largest = all.max(place[q]), fastest = all.max(speed[q]),
+                     least_motion = std::max(rounding_of_places * (all.max(whole[q]) + largest),
+                                             q % 2 == 0 ? forces[g] : 0.);
+        result.place.push_back(largest > least_motion ? largest : 0.);
+        result.late.push_back(
+            ratio(part_of_lateness * MotionDifference::place_bound * largest, fastest));
+        // 2 T / v of bodies with speeds up to v is at most their momentum.
+        result.impulse.push_back(least_impulse * ratio(2. * kinetic, fastest));
+      }
     }
+    return result;
+  }
+
+  /// Sums over all ranks.
+  MotionRecord::Energies MotionRecord::energies_of_all() const
+  {
+    Energies result = energies;
+    for (std::array<double, 2> &energy : result)
+      structure.communicator().sum(energy.data(), 2);
     return result;
   }
 
@@ -238,38 +359,42 @@ namespace taut
     result.time = all.max(is_here ? time : 0.);
   }
 
-  void MotionRecord::compare_energies(const Sizes &other, MotionDifference &result) const
+  void MotionRecord::compare_energies(const MotionRecord &other, const Sizes &size,
+                                      MotionDifference &result) const
   {
-    const Sizes own = sizes();
+    const Energies own = energies_of_all(), others = other.energies_of_all();
     const std::size_t n_groups = groups.n_groups(),
-                      n_both = std::min(own.energies.size(), other.energies.size()) / n_groups;
-    const auto change = [=](const Sizes &of, const std::size_t s, const std::size_t g)
+                      n_both = std::min(own.size(), others.size()) / n_groups;
+    const auto change = [=](const Energies &of, const std::size_t s, const std::size_t g)
     {
-      const std::array<double, 2> &now = of.energies[s * n_groups + g], &start = of.energies[g];
+      const std::array<double, 2> &now = of[s * n_groups + g], &start = of[g];
       return now[0] + now[1] - start[0] - start[1];
     };
     for (std::size_t g = 0; g < n_groups; ++g)
     {
-      const double window = std::max(1., std::floor(other.late[g] / interval));
+      const double late = std::max(size.late[2 * g], size.late[2 * g + 1]),
+                   window = std::max(1., std::floor(late / interval));
+      const bool moves = size.place[2 * g] > 0. || size.place[2 * g + 1] > 0.;
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
-      for (std::size_t s = 0; s < n_both && other.place[g] > 0.; ++s)
+      for (std::size_t s = 0; s < n_both && moves; ++s)
         result.energy =
-            worse(ratio(distance_to_range(change(own, s, g), s > w ? s - w : 0,
-                                          std::min(s + w, n_both - 1),
-                                          [&](const std::size_t j) { return change(other, j, g); }),
-                        other.energy[g]),
+            worse(ratio(distance_to_range(
+                            change(own, s, g), s > w ? s - w : 0, std::min(s + w, n_both - 1),
+                            [&](const std::size_t j) { return change(others, j, g); }),
+                        size.energy[g]),
                   result.energy);
     }
   }
 
   MotionDifference MotionRecord::difference(const MotionRecord &other) const
   {
-    const Sizes size = other.sizes();
+    Sizes size = other.sizes();
+    size.add(sizes());
     MotionDifference result;
     compare_places(other, size, result);
-    std::tie(result.impulse, result.row) = impulses.difference(
-        other.impulses, groups, size.impulse, size.late, rounding_of_times * interval);
-    compare_energies(size, result);
+    std::tie(result.impulse, result.row) =
+        impulses.difference(other.impulses, size.impulse, size.late, rounding_of_times * interval);
+    compare_energies(other, size, result);
     return result;
   }
 

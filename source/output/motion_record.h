@@ -14,8 +14,8 @@
 
 namespace taut
 {
-  /// The difference of two motions, relative to the largest values of the second motion, in the
-  /// group of connected bodies with the largest difference.
+  /// The difference of two motions, relative to the largest values of both, in the group of
+  /// connected bodies with the largest difference.
   struct MotionDifference
   {
     double place = 0., impulse = 0., energy = 0.; ///< [1]
@@ -38,6 +38,11 @@ namespace taut
    * two runs differ, see StepAccuracy. Places and energies of groups of connected bodies are
    * recorded at equal intervals of time. Impulses of constraints since the start are recorded at
    * the ends of steps, as contacts are shorter than such an interval.
+   *
+   * Of bodies with many DoFs some thousand places are recorded, at least one of each body.
+   * Rotations of lumped bodies are compared like places; slopes of wires are not, as their places
+   * say it. A place is measured by the largest own motion of its group: that of free DoFs, and
+   * relative to a base with a prescribed motion if this is less.
    */
   class MotionRecord
   {
@@ -78,9 +83,15 @@ namespace taut
     void add_energies(const State &state);
     double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
     Sizes sizes() const;
+    Energies energies_of_all() const;
+    std::vector<double> bases(std::vector<std::size_t> &groups_of_bases) const;
+    double own_size(std::size_t place, const std::vector<std::size_t> &groups_of_bases,
+                    const std::vector<double> &bases) const;
+    std::vector<double> rounding() const;
     void compare_places(const MotionRecord &other, const Sizes &size,
                         MotionDifference &result) const;
-    void compare_energies(const Sizes &other, MotionDifference &result) const;
+    void compare_energies(const MotionRecord &other, const Sizes &size,
+                          MotionDifference &result) const;
 
     const Structure &structure;
     const Constraints &constraints;
@@ -90,12 +101,13 @@ namespace taut
     const std::size_t n;
     std::size_t n_recorded = 0;
 
-    /// A DoF that is a displacement, and its group.
+    /// A recorded DoF, and its group and kind as one number.
     struct Place
     {
       std::size_t body;
       unsigned int dof;
-      std::size_t group;
+      std::size_t group; ///< 2 g, or 2 g + 1 of a rotation
+      bool is_prescribed;
     };
     std::vector<Place> dofs; ///< body after body
 
@@ -103,13 +115,13 @@ namespace taut
     struct Body
     {
       std::size_t number, first, end;
-      bool has_inner; ///< some of its DoFs are multipliers of internal constraints
+      std::size_t group;
     };
     std::vector<Body> bodies;
     std::vector<double> start_of_dofs; ///< [m]
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
-    std::vector<double> speed; ///< of the groups, largest so far [m/s]
+    std::vector<double> speed; ///< of the groups by kind, largest so far [m/s, rad/s]
     ImpulseRecord impulses;
     std::vector<double> places; ///< of all DoFs, sample after sample [m]
     Energies energies;          ///< shares of this rank
