@@ -200,4 +200,12 @@ namespace taut
     const std::lock_guard<std::mutex> lock(mutex);
     return (*program)(values);
   }
+
+  void CompiledFormula::evaluate(const std::vector<double> &s, const double t,
+                                 std::vector<double> &result)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (std::size_t i = 0; i < s.size(); ++i)
+      result[i] = (*program)({s[i], t});
+  }
 } // namespace taut

@@ -43,6 +43,9 @@ namespace taut
     /// TabulatedFunction::Outside.
     double operator()(const Values &values);
 
+    /// Values at first values @p s and the second value @p t, without tables.
+    void evaluate(const std::vector<double> &s, double t, std::vector<double> &result);
+
   private:
     class Program;
 

@@ -11,6 +11,7 @@
 #include <iomanip>
 #include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -249,6 +250,39 @@ namespace taut
     if (!std::isfinite(value))
       fail(values);
     return value;
+  }
+
+  void Expression::evaluate(const std::vector<double> &s, const double t,
+                            std::vector<double> &result) const
+  {
+    result.resize(s.size());
+    if (!varies || !compiled || variable_alone >= 0 || !tables.empty())
+    {
+      for (std::size_t i = 0; i < s.size(); ++i)
+        result[i] = (*this)(s[i], t);
+      return;
+    }
+    compiled->evaluate(s, t, result);
+    for (std::size_t i = 0; i < s.size(); ++i)
+      if (!std::isfinite(result[i]))
+        fail({s[i], t});
+  }
+
+  bool Expression::is_analytic() const
+  {
+    static const std::set<std::string> analytic = {
+        "s",   "t",   "x",   "y",    "z",    "pi",   "e",    "E",     "_pi", "_e",
+        "exp", "sin", "cos", "sinh", "cosh", "tanh", "atan", "asinh", "erf", "erfc"};
+    if (text.find_first_of("<>=!&|?:;") != std::string::npos || !tables.empty())
+      return false;
+    static const std::regex word("[A-Za-z_][A-Za-z_0-9]*"), number("[0-9.]+([eE][+-]?[0-9]+)?");
+    const std::string words = std::regex_replace(text, number, " ");
+    for (std::sregex_iterator at(words.begin(), words.end(), word), end; at != end; ++at)
+      if (analytic.count(at->str()) == 0)
+        return false;
+    // A power that is no whole number is a root.
+    static const std::regex power("\\^ *([^ 0-9]|[0-9]*\\.)");
+    return !std::regex_search(text, power);
   }
 
   std::string Expression::content() const

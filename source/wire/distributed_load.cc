@@ -97,8 +97,10 @@ namespace taut
           v *= factor * h * rule.weight(q);
       }
     }
-    if (!is_uniform && !stands)
-      find_standing_details();
+    if (is_uniform || stands)
+      return;
+    find_standing_details();
+    smooth = std::make_unique<const SmoothLoad>(magnitude, elements);
   }
 
   void WireComponent::DistributedLoad::find_standing_details()
@@ -153,6 +155,8 @@ namespace taut
           element.shapes[q].add_to(magnitude(element.places[q], t), P);
       return;
     }
+    if (smooth && smooth->apply(t, P))
+      return;
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
     for (const Element &element : elements)

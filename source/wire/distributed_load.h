@@ -3,17 +3,19 @@
 #define taut_distributed_load_h
 
 #include "wire/element_load.h"
+#include "wire/smooth_load.h"
 
 #include <taut/wire/wire_component.h>
 
-#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace taut
 {
   /**
-   * A force per length f(s, t), integrated at each call over each element, see LoadIntegral.
+   * A force per length f(s, t), integrated at each call over each element, see LoadIntegral, or by
+   * panels of many elements where it is smooth, see SmoothLoad.
    *
    * For a load that changes with time an element is looked at in one piece, so that a moving load
    * has to be as wide as this piece sees; a narrower moving load throws EntryError. A narrower load
@@ -30,13 +32,7 @@ namespace taut
     double sample(double t) const override;
 
   private:
-    struct Element
-    {
-      std::array<LinearForm, ElementLoad::n_points> shapes; ///< weighted
-      std::array<double, ElementLoad::n_points> places;
-      double begin, length;
-      unsigned int n_pieces;
-    };
+    using Element = LoadedElement;
     class WidthCheck;
 
     ElementLoad over(const Element &element, double t, TypicalLoad &typical) const;
@@ -48,6 +44,7 @@ namespace taut
     double wire_length;
     bool is_uniform; ///< along the wire
     std::vector<Element> elements;
+    std::unique_ptr<const SmoothLoad> smooth; ///< of loads that change along the wire and in time
   };
 } // namespace taut
 

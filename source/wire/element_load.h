@@ -2,6 +2,7 @@
 #ifndef taut_element_load_h
 #define taut_element_load_h
 
+#include "wire/smooth_load.h"
 #include <taut/scene/expression.h>
 
 #include <array>
@@ -15,7 +16,7 @@ namespace taut
    */
   struct ElementLoad
   {
-    static constexpr unsigned int n_points = 4;
+    static constexpr unsigned int n_points = LoadedElement::n_points;
     using Values = std::array<double, n_points>;
 
     Values values = {};

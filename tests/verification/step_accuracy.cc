@@ -160,7 +160,8 @@ TEST(StepAccuracy, adaptive_steps_ask_for_a_tolerance)
 TEST(StepAccuracy, runs_that_cost_much_are_checked_if_asked_for)
 {
   const Overrides many = {"Time.Step=2.5e-6"};
-  EXPECT_FALSE(has(run(oscillator, exact_oscillator, many).log, "Steps: "));
+  EXPECT_TRUE(has(run(oscillator, exact_oscillator, many).log,
+                  "Steps: not checked, as runs with other steps take long"));
   const Checked asked =
       run(oscillator, exact_oscillator, {"Time.Step=1e-4", "Time.Check steps=yes"});
   EXPECT_GE(asked.reported, asked.error);

@@ -60,6 +60,14 @@ namespace taut
       return varies ? evaluate(x, t) : constant;
     }
 
+    /// Values at positions @p s [m], t [s], into @p result, which is resized: cheaper than one by
+    /// one. Throws as operator().
+    void evaluate(const std::vector<double> &s, double t, std::vector<double> &result) const;
+
+    /// True if the formula is made of functions alone that have all derivatives: no tables,
+    /// conditions, magnitudes, roundings or roots.
+    bool is_analytic() const;
+
     const std::string &formula() const { return text; }
 
     /// The formula with digests of its tables: differs where values may differ.

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_smooth_load_h
+#define taut_smooth_load_h
+
+#include <taut/base/linear_form.h>
+#include <taut/scene/expression.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace taut
+{
+  /// An element of a wire under a load: the forces of unit values at its Gauss points.
+  struct LoadedElement
+  {
+    static constexpr unsigned int n_points = 4;
+
+    std::array<LinearForm, n_points> shapes; ///< weighted
+    std::array<double, n_points> places;     ///< [m]
+    double begin, length;                    ///< [m]
+    unsigned int n_pieces;                   ///< see LoadIntegral
+  };
+
+  /**
+   * The forces of a smooth force per length q(s, t) by polynomials over panels of many elements: a
+   * gust is evaluated at some hundred places, not at four in each element. A panel has the
+   * polynomial of degree 8 through nine Gauss points, and one matrix from these values to the
+   * forces of its elements.
+   *
+   * Formulas count as smooth that are made of analytic functions alone. The length of panels is
+   * found at set-up, at some times. A panel that is not resolved shows in the last coefficients of
+   * its Legendre series, at each time; what is narrower than the distance of its points shows in
+   * values at five places of each element, four times a second. In either case apply() returns
+   * false, and the load is integrated element by element.
+   */
+  class SmoothLoad
+  {
+  public:
+    /// The error of a polynomial, over the largest value of the load.
+    static constexpr double tolerance = 1e-7;
+
+    /// Elements one after the other; they are used here alone.
+    SmoothLoad(const Expression &magnitude, const std::vector<LoadedElement> &elements);
+
+    /// Adds the forces at time t [s]. False, with @p P as it is: the panels do not resolve the
+    /// load. What it returns depends on t alone, not on earlier calls.
+    bool apply(double t, std::vector<double> &P) const;
+
+  private:
+    static constexpr unsigned int n_points = 9, n_checks = 5;
+
+    struct Panel
+    {
+      std::size_t begin, end;              ///< elements
+      std::array<double, n_points> places; ///< [m]
+      unsigned int first_dof = 0;
+      std::vector<double> forces; ///< of each point in turn, one number a DoF
+    };
+
+    void make_panels(const std::vector<LoadedElement> &elements, std::size_t n_in_panel);
+    void add_forces(const std::vector<LoadedElement> &elements, Panel &panel) const;
+    bool look(double t) const;
+    bool is_seen(double t) const;
+
+    Expression magnitude;
+    std::vector<Panel> panels;
+    std::vector<double> places, check_places; ///< of all panels, and in all elements [m]
+
+    // What the last call found, kept for its memory and for the next call at a time near it.
+    mutable std::vector<double> values, checks;
+    mutable long quarter = -1;
+    mutable bool quarter_is_seen = false;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what is narrower than a step is never lost in silence: a run is right, or a warning names
+// the load, place or height and the step that sees it. Source: the same scene in steps of a
+// sixteenth of the feature; free vibration after an impulse.
+#include "scene_tests.h"
+
+using namespace verification;
+
+namespace
+{
+  /// A mass of 1 kg on a spring of 400 N/m, under a load.
+  std::string loaded_mass(const std::string &load)
+  {
+    return "Gravity = 0, 0; Start = given\n"
+           "Mass m: Mass = 1\nSpring k: To = m; Stiffness = 400\n"
+           "Load f: On = m; Magnitude = " +
+           load + "\nProbe m: Point = m\nTime: Step = 1e-3; End = 1\n";
+  }
+
+  /// The same mass on a base that moves.
+  std::string shaken_mass(const std::string &base)
+  {
+    return "Gravity = 0, 0; Start = given\n"
+           "Mass base: Position = 0, -1; Motions = x; Mass = 1e-3; Prescribed y = " +
+           base +
+           "\nMass m: Motions = y; Mass = 1\nSpring k: From = base; To = m; Stiffness = 400\n"
+           "Time: Step = 1e-3; End = 1\n";
+  }
+
+  /// A mass that slides along a stiff wire with heights.
+  std::string over_heights(const std::string &heights)
+  {
+    return "Gravity = 0, 0\n"
+           "Wire wire: To = 10, 0; Components = string; Mass per length = 1; Tension = 1e9;\n"
+           "  Element size = 1\n"
+           "Support ends: Wire = wire; Positions = 0, 10\n"
+           "Mass m: Position = 1, 0; Mass = 5; Motions = y\n"
+           "Spring k: From = ground; To = m; Stiffness = 2000\n"
+           "Link contact: Type = sliding contact; From = m; To = wire @ 1; Direction = 0, 1;\n"
+           "  Stiffness = 10000; Speed = 8; Height profile = " +
+           heights + "\nLoad force: On = m; Magnitude = 60\nTime: Step = 1e-3; End = 1\n";
+  }
+
+  /// A wire with a support that moves, and a mass on it.
+  std::string over_support(const std::string &place)
+  {
+    return "Gravity = 0, 0; Start = given\n"
+           "Wire wire: To = 10, 0; Components = string; Mass per length = .1; Tension = 1e3;\n"
+           "  Element size = 2.5\n"
+           "Support ends: Wire = wire; Positions = 0\n"
+           "Support mid: Wire = wire; Positions = 10; Displacement = " +
+           place +
+           "\nPoint mass m: Wire = wire; Positions = 5; Mass = 1\n"
+           "Time: Step = 1e-3; End = 1\n";
+  }
+
+  /// The largest displacement of the last body at multiples of a step.
+  std::vector<double> motion_of(const std::string &scene, const double step,
+                                const Overrides &overrides, std::string *const log = nullptr)
+  {
+    std::vector<double> u;
+    Session session(scene, overrides + Overrides{"Output.Link interval=0"});
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          const double n = view.state.time / step;
+          if (std::fabs(n - std::round(n)) > 1e-6)
+            return;
+          double largest = 0.;
+          const std::size_t k = view.structure.size() - 1;
+          for (std::size_t i = 0; i < view.state.U[k].size(); ++i)
+            if (std::fabs(view.state.U[k][i]) > std::fabs(largest))
+              largest = view.state.U[k][i];
+          u.push_back(largest);
+        });
+    if (log)
+      *log = session.log();
+    return u;
+  }
+
+  double largest_of(const std::vector<double> &u)
+  {
+    double largest = 0.;
+    for (const double x : u)
+      raise(largest, x);
+    return largest;
+  }
+
+  /// The step that a warning names [s]; -1: none.
+  double needed(const std::string &log)
+  {
+    const std::string mark = "Take a step of at most ";
+    const std::size_t at = log.find(mark);
+    return at == std::string::npos ? -1. : std::stod(log.substr(at + mark.size()));
+  }
+} // namespace
+
+// 0.2 N s on 1 kg and 400 N/m: 10 mm. Steps of 1 ms see half or all of 1 N s.
+TEST(UnseenFeatures, pulse_on_a_mass_at_rest)
+{
+  const std::string scene = loaded_mass("t > 0.1028 && t < 0.1032 ? 500 : 0");
+  std::string log;
+  motion_of(scene, 1e-3, {}, &log);
+  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0004 s at t = 0.1025 s"))
+      << log;
+  EXPECT_TRUE(has(log, "Steps: not checked, as something lies between them")) << log;
+  const double step = needed(log);
+  EXPECT_NEAR(step, 1e-4, 2e-6);
+  const std::vector<double> u = motion_of(scene, step, {"Time.Step=" + number(step)}, &log);
+  EXPECT_FALSE(has(log, "Warning")) << log;
+  EXPECT_NEAR(
+      figure("pulse of 0.4 ms in the step that a warning names, amplitude", largest_of(u), "m"),
+      .01, 1e-3);
+}
+
+TEST(UnseenFeatures, pulse_beside_a_slow_load)
+{
+  std::string log;
+  motion_of(loaded_mass("4*sin(13*t)+(t > 0.1021 && t < 0.1029 ? 250 : 0)"), 1e-3, {}, &log);
+  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0008 s")) << log;
+}
+
+// What steps see is no pulse: jumps, vibrations of eight steps, a pulse of ten.
+TEST(UnseenFeatures, what_steps_see_is_not_warned_of)
+{
+  for (const std::string load :
+       {"t < 0.3005 ? 0 : 5", "sin(785*t)", "exp(-((t-.3)/5e-3)^2)", "3", "t < .20003 ? 9*t : 2"})
+  {
+    std::string log;
+    motion_of(loaded_mass(load), 1e-3, {}, &log);
+    EXPECT_FALSE(has(log, "changes for about")) << load << log;
+  }
+}
+
+TEST(UnseenFeatures, accuracy_and_adaptive_steps_see_a_spike)
+{
+  const std::string spike = loaded_mass("400*exp(-((t-1.00031)/5e-5)^2)+sin(5*t)");
+  const Overrides longer = {"Time.End=2", "Time.Step=2e-3"};
+  const double exact = largest_of(motion_of(spike, 2e-3, longer + Overrides{"Time.Step=2e-6"}));
+  const double adaptive = largest_of(motion_of(
+      spike, 2e-3,
+      longer + Overrides{"Time.Step control=adaptive", "Time.Adaptive step.Doublings=0"}));
+  EXPECT_NEAR(adaptive, exact, .01 * exact);
+}
+
+// Pulses of three shapes and random widths from 1e-4 s on, heights, places and signs, some beside a
+// slow motion.
+TEST(UnseenFeatures, random_features_are_seen_or_warned_of)
+{
+  constexpr int n_features = 200;
+  std::mt19937_64 random(47);
+  const auto uniform = [&](const double a, const double b)
+  { return a + (b - a) * std::ldexp(static_cast<double>(random() >> 11), -53); };
+  int n_right = 0, n_warned = 0, n_both = 0;
+  for (int i = 0; i < n_features; ++i)
+  {
+    const int family = i % 4, shape = static_cast<int>(uniform(0., 3.));
+    const double width = std::pow(10., uniform(-4., -1.5)), at = uniform(.1, .6),
+                 height = std::pow(10., uniform(0., 1.)), step = std::pow(10., uniform(-3.5, -2.5));
+    const bool is_adaptive = uniform(0., 1.) < .3;
+    std::string x = "((t-" + number(at) + ")/" + number(width) + ")";
+    if (family == 2)
+      x = "((s-" + number(1. + 8. * at) + ")/" + number(8. * width) + ")";
+    std::string pulse = shape == 0   ? "(abs(" + x + ")<.5?1:0)"
+                        : shape == 1 ? "exp(-" + x + "^2)"
+                                     : "max(0,1-abs(" + x + "))";
+    pulse = number((family == 0 ? 50. : 1e-2) * height) + "*" + pulse;
+    if (uniform(0., 1.) < .5)
+      pulse += family == 0 ? "+2*sin(13*t)" : family == 2 ? "+1e-3*sin(2*s)" : "+1e-3*(1-cos(9*t))";
+    const std::string scene = family == 0   ? loaded_mass(pulse)
+                              : family == 1 ? shaken_mass(pulse)
+                              : family == 2 ? over_heights(pulse)
+                                            : over_support(pulse);
+    SCOPED_TRACE(std::to_string(i) + ": " + pulse + ", step " + number(step) +
+                 (is_adaptive ? ", adaptive" : ""));
+    Overrides coarse = {"Time.Step=" + number(step)};
+    if (is_adaptive)
+      coarse = coarse + Overrides{"Time.Step control=adaptive", "Time.Adaptive step.Doublings=0"};
+    const int finer = std::max(1, static_cast<int>(std::ceil(std::log2(step / (width / 16.)))));
+    std::string log;
+    const std::vector<double> u = motion_of(scene, step, coarse, &log),
+                              exact = motion_of(scene, step,
+                                                {"Time.Step=" + number(std::ldexp(step, -finer)),
+                                                 "Time.Check steps=no"});
+    double error = 0.;
+    for (std::size_t k = 0; k < std::min(u.size(), exact.size()); ++k)
+      raise(error, u[k] - exact[k]);
+    const bool is_right = error <= .05 * largest_of(exact), is_warned = has(log, "Warning");
+    n_right += is_right;
+    n_warned += is_warned;
+    n_both += is_right && is_warned;
+    EXPECT_TRUE(is_right || is_warned) << "silent, error " << error / largest_of(exact)
+                                       << ", pulse of " << width / step << " steps\n"
+                                       << log;
+  }
+  figure("random features that are right", n_right);
+  figure("random features that are warned of", n_warned);
+  figure("random features that are right and warned of", n_both);
+}
