@@ -150,9 +150,10 @@ namespace taut
   {
     if (is_uniform)
     {
+      const double everywhere = magnitude(elements.front().places[0], t);
       for (const Element &element : elements)
-        for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
-          element.shapes[q].add_to(magnitude(element.places[q], t), P);
+        for (const LinearForm &shape : element.shapes)
+          shape.add_to(everywhere, P);
       return;
     }
     if (smooth && smooth->apply(t, P))
