@@ -62,8 +62,8 @@ namespace taut
                       "The longest step is Step times two to this power [1]", Integer(0, 20));
     prm.add_parameter(
         "Largest step", largest,
-        "The longest step is at most this; 0: by Doublings. Loads and given motions "
-        "are looked at sixteen times a Step: what is shorter needs a smaller Step [s]",
+        "The longest step is at most this; 0: by Doublings. "
+        "Jumps and pulses of loads, given motions and heights are met by shorter ones [s]",
         Double(0., 1e9));
     prm.leave_subsection();
   }

@@ -21,7 +21,7 @@ namespace hunt
         {
           number[k][i] = static_cast<int>(free.size());
           free.push_back({k, i});
-          is_length.push_back(body.kind(i) == 0);
+          is_place.push_back(body.kind(i) == 0 || body.is_lumped());
         }
     }
     add_matrices(view);
@@ -62,7 +62,40 @@ namespace hunt
     taut::BodyVectors P(view.structure.size());
     for (std::size_t k = 0; k < P.size(); ++k)
       view.structure[k].external_force(t, P[k]);
-    return gather(P);
+    Vector result = gather(P);
+    add_prescribed(view, t, result);
+    return result;
+  }
+
+  /// Subtracts K u + C u' + M u" of the prescribed places u = mean + a sin(w t + phase).
+  void LinearModel::add_prescribed(const taut::StepView &view, const double t, Vector &loads) const
+  {
+    for (std::size_t k = 0; k < view.structure.size(); ++k)
+    {
+      const taut::Substructure &body = view.structure[k];
+      std::map<unsigned int, std::array<double, 3>> given; // place, velocity, acceleration
+      for (const taut::ConstrainedDof &dof : body.constraints())
+      {
+        const double u = dof.at(t);
+        given[dof.dof] = {u, 0., 0.};
+        if (!dof.motion || !(frequency > 0.))
+          continue;
+        const double period = 2. * std::acos(-1.) / frequency,
+                     mean = .5 * (dof.at(0.) + dof.at(.5 * period));
+        given[dof.dof] = {u, frequency * (dof.at(t + .25 * period) - mean),
+                          -frequency * frequency * (u - mean)};
+      }
+      const taut::SymmetricMatrix *const matrices[] = {&body.stiffness(), &body.damping(),
+                                                       &body.mass()};
+      for (int order = 0; order < 3; ++order)
+        matrices[order]->visit(
+            [&](const unsigned int i, const unsigned int j, const double value)
+            {
+              for (const auto &[row, column] : {std::pair(i, j), std::pair(j, i)})
+                if (const int a = number[k][row]; a >= 0 && number[k][column] < 0)
+                  loads[a] -= value * given[column][order];
+            });
+    }
   }
 
   void LinearModel::find_loads(const taut::StepView &view)
@@ -133,7 +166,7 @@ namespace hunt
   {
     Vector result;
     for (std::size_t i = 0; i < u.size(); ++i)
-      if (is_length[i])
+      if (is_place[i])
         result.push_back(u[i]);
     return result;
   }

@@ -18,6 +18,8 @@ namespace hunt
   ///
   ///     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
   ///
+  /// Prescribed places are sines of w, too; what they do to the free DoFs is part of the loads.
+  ///
   /// The discretisation in space is the program's, so that what differs is the integration in time.
   struct LinearModel
   {
@@ -47,7 +49,7 @@ namespace hunt
     double kinetic(const Vector &v) const;
     double potential(const Vector &u) const;
 
-    /// Those of @p u that are lengths.
+    /// Those of @p u that are lengths, or rotations of masses.
     Vector places(const Vector &u) const;
 
     dealii::FullMatrix<double> mass, damping, stiffness;
@@ -65,13 +67,14 @@ namespace hunt
     };
     Vector gather(const taut::BodyVectors &values) const;
     Vector load(const taut::StepView &view, double t) const;
+    void add_prescribed(const taut::StepView &view, double t, Vector &loads) const;
     void find_loads(const taut::StepView &view);
     void add_matrices(const taut::StepView &view);
     void add_rows(const taut::StepView &view);
 
     std::vector<Dof> free;
     std::vector<std::vector<int>> number; ///< of each DoF of a body among the free ones, or -1
-    std::vector<char> is_length;
+    std::vector<char> is_place;
   };
 } // namespace hunt
 

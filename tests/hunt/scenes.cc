@@ -23,6 +23,13 @@ namespace hunt
     draft.scene.reach = 20. * draft.scales.l;
   }
 
+  std::string given_place(Draft &draft)
+  {
+    const double frequency = short_number(draft.random.uniform(.5, 8.) / draft.scales.t);
+    draft.scene.frequency = frequency;
+    return draft.draw(draft.scales.l, -1., 1.) + "*sin(" + number(frequency) + "*t)";
+  }
+
   std::string elastic(Draft &draft)
   {
     return "Stiffness = " + draft.draw_decades(draft.scales.k(), softest, stiffest);
@@ -170,33 +177,106 @@ namespace hunt
       return draft.finish(step_decades, 1.5, 4.);
     }
 
-    const std::pair<const char *, HuntScene (*)(Draft)> all[] = {
-        {"smooth masses", smooth_masses},
-        {"elastic stop", elastic_stop},
-        {"rigid stop", rigid_stop},
-        {"damped stop", damped_stop},
-        {"several links", several_links},
-        {"law", law},
-        {"adaptive steps", adaptive},
-        {"smooth wire", smooth_wire},
-        {"wire on elastic stop", wire_on_stop},
-        {"wire on rigid stop", wire_on_rigid_stop},
-        {"moving contact", moving_contact},
-        {"turning rope", turning_rope}};
+    /// A law as that of law(), with a damper beside it.
+    HuntScene law_with_damper(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      add_chain(draft, draft.random.integer(1, 2), draft.random.chance(.5));
+      const double k = s.k() * draft.random.decades(-1, 5), u = s.l / std::sqrt(k / s.k()),
+                   f1 = .3 * k * u, f2 = f1 + .7 * u * k * draft.random.decades(-1, 1.5);
+      add_stop(draft, "floor", "m0",
+               "Law = table; Law points = " + number(short_number(.3 * u)) + ": " +
+                   number(short_number(f1)) + ", " + number(short_number(u)) + ": " +
+                   number(short_number(f2)) +
+                   "; Damping = " + draft.draw_decades(2. * std::sqrt(k * s.m), -2, 0));
+      return draft.finish(step_decades, 1.5, 4.);
+    }
+
+    /// Masses that turn about one axis, on torsional springs and stops; numbers as of add_chain().
+    HuntScene torsional_stop(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      const int n = draft.random.integer(1, 3);
+      const double common = -draft.random.uniform(.5, 2.);
+      for (int i = 0; i < n; ++i)
+      {
+        const std::string name = "m" + std::to_string(i);
+        const double speed = i == 0 ? common : draft.random.uniform(-2., 1.);
+        draft.line() << "Mass " << name << ": Position = 0, " << 10. * i
+                     << "; Motions = rotation; Mass = 1; Inertia = "
+                     << draft.draw_decades(s.m, -.5, .5) << "; Initial velocity = 0, 0, "
+                     << short_number(speed * s.v());
+        draft.line() << "Spring s" << std::to_string(i) << ": Rotational = true; From = "
+                     << (i == 0 ? "ground" : "m" + std::to_string(i - 1)) << "; To = " << name
+                     << "; Stiffness = " << draft.draw_decades(s.k(), -1, 1.3);
+      }
+      draft.line() << "Link stop: Type = stop; Rotational = true; From = ground; To = m0; Gap = "
+                   << draft.draw(s.l, .05, 1.) << "; "
+                   << (draft.random.chance(.3) ? "" : elastic(draft));
+      draft.scene.reach = 20. * s.l;
+      draft.line() << "Start = given; Gravity = 0, 0";
+      return draft.finish(step_decades, 1.5, 4.);
+    }
+
+    HuntScene moving_base(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      add_chain(draft, draft.random.integer(1, 3), false);
+      draft.line() << "Mass base: Position = 0, " << -10. * s.l
+                   << "; Motions = x; Mass = 1e-3; Prescribed y = " << given_place(draft);
+      draft.line() << "Spring bearing: From = base; To = m0; Stiffness = "
+                   << draft.draw_decades(s.k(), -1, 1.3);
+      if (draft.random.chance(.4))
+        draft.line() << "Spring bearing: Damping = " << draft.draw_decades(s.m / s.t, -2, 0);
+      if (draft.random.chance(.7))
+        add_stop(draft, "floor", "m0", draft.random.chance(.3) ? "" : elastic(draft));
+      if (draft.random.chance(.2))
+        draft.line() << "Time: Step control = adaptive";
+      return draft.finish(step_decades, 1.5, 4.);
+    }
+
+    using Family = std::pair<const char *, HuntScene (*)(Draft)>;
+
+    const std::vector<Family> of_given = {{"law with a damper", law_with_damper},
+                                          {"torsional stop", torsional_stop},
+                                          {"moving base", moving_base},
+                                          {"moving support", moving_support}};
+
+    const std::vector<Family> of_contacts = {{"smooth masses", smooth_masses},
+                                             {"elastic stop", elastic_stop},
+                                             {"rigid stop", rigid_stop},
+                                             {"damped stop", damped_stop},
+                                             {"several links", several_links},
+                                             {"law", law},
+                                             {"adaptive steps", adaptive},
+                                             {"smooth wire", smooth_wire},
+                                             {"wire on elastic stop", wire_on_stop},
+                                             {"wire on rigid stop", wire_on_rigid_stop},
+                                             {"moving contact", moving_contact},
+                                             {"turning rope", turning_rope}};
   } // namespace
 
-  const std::vector<std::string> &families()
+  namespace
   {
-    static std::vector<std::string> names;
-    for (std::size_t i = names.size(); i < std::size(all); ++i)
-      names.emplace_back(all[i].first);
+    const std::vector<Family> &families_of(const Field field)
+    {
+      return field == Field::contacts ? of_contacts : of_given;
+    }
+  } // namespace
+
+  std::vector<std::string> families(const Field field)
+  {
+    std::vector<std::string> names;
+    for (const Family &family : families_of(field))
+      names.emplace_back(family.first);
     return names;
   }
 
-  HuntScene make_scene(const std::uint64_t seed, const std::size_t number)
+  HuntScene make_scene(const std::uint64_t seed, const std::size_t number, const Field field)
   {
     Random random(seed * 1000003 + number);
-    const auto &[name, make] = all[number % std::size(all)];
+    const std::vector<Family> &all = families_of(field);
+    const auto &[name, make] = all[number % all.size()];
     const Scales scales = {short_number(random.decades(-2, 2)), short_number(random.decades(-2, 1)),
                            short_number(random.decades(-3, 1))};
     HuntScene scene = make({random, scales});

@@ -34,10 +34,18 @@ namespace hunt
     Pendulum pendulum = {};
   };
 
-  const std::vector<std::string> &families(); ///< names of the families, in the order of the table
+  /// Families by what they are about.
+  enum class Field
+  {
+    contacts, ///< masses, wires and links
+    given     ///< prescribed motions, dampers in laws, rotations
+  };
 
-  /// The scene of a number; the same on every machine. Families take turns.
-  HuntScene make_scene(std::uint64_t seed, std::size_t number);
+  /// Names of the families, in the order of the table.
+  std::vector<std::string> families(Field field);
+
+  /// The scene of a number; the same on every machine. Families of a field take turns.
+  HuntScene make_scene(std::uint64_t seed, std::size_t number, Field field = Field::contacts);
 } // namespace hunt
 
 #endif

@@ -97,4 +97,17 @@ namespace hunt
     draft.scene.kind = ReferenceKind::program;
     return draft.finish(2., 1., 2.5);
   }
+
+  /// A wire whose end is moved, over a stop or free.
+  HuntScene moving_support(Draft draft)
+  {
+    const double length = add_wire(draft, kind_of_wire(draft), false);
+    draft.line() << "Support ends: Positions = 0";
+    draft.line() << "Support hand: Wire = wire; Positions = " << length
+                 << "; Displacement = " << given_place(draft);
+    if (draft.random.chance(.5))
+      add_stop(draft, "stop", "wire @ " + number(.5 * length), elastic(draft));
+    draft.line() << "Start = given";
+    return draft.finish(step_decades_of_wires, 1., 2.5);
+  }
 } // namespace hunt
