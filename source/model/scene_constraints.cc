@@ -97,7 +97,7 @@ namespace taut
 
       double profile(const double t) const override
       {
-        return link.profile(sliding_position(t), t);
+        return link.profile.is_constant() ? 0. : link.profile(sliding_position(t), t);
       }
 
       /// Whether the wire of a strip has not begun at a time, or has ended, not by rounding.
