@@ -258,3 +258,27 @@ TEST(DistributedLoads, moments_turn)
   EXPECT_NEAR(wire.force(), 0., 1e-9);
   EXPECT_NEAR(wire.moment(), 3. * 7.25, 3. * 7.25 * bound);
 }
+
+// The same formula with a function that is not smooth, times 0, is integrated element by element.
+TEST(DistributedLoads, smooth_loads_by_panels_are_those_by_elements)
+{
+  for (const std::string &kind : kinds)
+    for (const std::string formula :
+         {"3*exp(-((s-7*t-2)/3)^2)", "sin(s-2*t)+cos(.7*s)*t", "exp(-((s-7*t)/.25)^2)",
+          "exp(-((t-1)/.01)^2)*s/(1+s^2)", "tanh(s-9*t)"})
+    {
+      LoadedWire smooth(kind, formula), other(kind, formula + "+0*abs(s)");
+      double difference = 0., largest = 0.;
+      for (double t = 0.; t < 3.; t += .031)
+      {
+        smooth.force(t);
+        other.force(t);
+        raise(difference, verification::largest_difference(smooth.P, other.P));
+        raise(largest, verification::largest(other.P));
+      }
+      SCOPED_TRACE(kind + ", " + formula);
+      EXPECT_GT(largest, 0.);
+      EXPECT_LE(figure("smooth load by panels and by elements, " + formula, difference / largest),
+                1e-6);
+    }
+}
