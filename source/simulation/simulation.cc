@@ -201,19 +201,19 @@ namespace taut
     const UnseenFeature &feature = motion->unseen_feature();
     const StepParameters &control = motion->settings().steps;
     const double shortest = control.shortest(parameters.step);
-    if (feature.name.empty() || shortest <= feature.longest_step())
+    if (feature.name.empty() || shortest <= feature.longest_step)
       return {};
     std::string message =
         to_text(std::setprecision(2), feature.name, " changes for about ", feature.width,
                 " s at t = ", std::setprecision(4), feature.time, " s, ", std::setprecision(2));
     if (control.adaptive())
       message += to_text("and the shortest step is ", shortest, " s. Set Adaptive step/Halvings = ",
-                         std::ceil(std::log2(parameters.step / feature.longest_step())));
+                         std::ceil(std::log2(parameters.step / feature.longest_step)));
     else
       message += to_text("which steps of ", parameters.step,
                          " s do not see, or make too much of. Take a step of at most ",
-                         feature.longest_step(), " s, or Step control = adaptive");
-    return {{"feature", message, shortest, feature.longest_step(), "s", feature.time}};
+                         feature.longest_step, " s, or Step control = adaptive");
+    return {{"feature", message, shortest, feature.longest_step, "s", feature.time}};
   }
 
   std::string Simulation::what_steps_miss() const

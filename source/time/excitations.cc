@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 namespace taut
 {
@@ -21,42 +24,44 @@ namespace taut
     constexpr long most_steps = 10'000'000;
 
     /// Steps whose areas are compared, and the parts of areas and of the range that may be lost.
-    constexpr std::size_t window = 10;
-    constexpr double lost_area = .1, lost_range = .1;
+    constexpr std::size_t window = 20;
+    constexpr double lost_area = .04, lost_range = .1;
+
+    /// Steps on both sides of a feature, and halvings, in the search of a step that sees it.
+    constexpr double around = 2.;
+    constexpr int most_halvings = 16;
 
     /// What the steps lose of one excitation.
     class Losses
     {
     public:
-      Losses(const Excitation &excitation, const double start, const double step,
-             const long n_steps)
-          : excitation(excitation), start(start), step(step),
+      /// @p at_rest is the value at the start of the run.
+      Losses(const Excitation &excitation, const double at_rest, const double start,
+             const double step, const long n_steps)
+          : excitation(excitation), at_start(at_rest), start(start), step(step), n_steps(n_steps),
             n_samples(std::max(samples_of_step, samples_of_run / n_steps + 1))
       {
-        try
-        {
-          at_start = excitation.at(start);
-          for (long m = 0; m < n_steps; ++m)
-            add_step(m);
-        }
-        catch (const UserError &)
-        {
-          // The run says so if it comes to a time without a value.
-        }
+        last = excitation.at(start) - at_start;
+        least = most = last;
+        for (long m = 0; m < n_steps; ++m)
+          add_step(m);
       }
 
-      /// The feature, or none if all is seen.
-      UnseenFeature feature() const
+      bool sees_all() const { return !loses_area() && !loses_range(); }
+
+      /// Where most is lost: a width and a time.
+      std::pair<double, double> narrowest() const
       {
-        const bool loses_area = largest_loss > lost_area * largest_area,
-                   loses_range = !excitation.is_load && excursion > lost_range * (most - least);
-        if (!loses_area && !loses_range)
-          return {};
-        const long m = loses_range ? step_of_excursion : step_of_loss;
-        return {excitation.name, excitation.origin, start + (m + .5) * step, width_in(m)};
+        return width_and_time(loses_range() ? step_of_excursion : step_of_loss);
       }
 
     private:
+      bool loses_area() const { return largest_loss > lost_area * largest_area; }
+      bool loses_range() const
+      {
+        return !excitation.is_load && excursion > lost_range * (most - least);
+      }
+
       double value(const long m, const long k) const
       {
         return excitation.at(start + (m + static_cast<double>(k) / n_samples) * step) - at_start;
@@ -102,32 +107,37 @@ namespace taut
         largest_area = std::max(largest_area, sizes);
       }
 
-      /// Width of a block of the height and area of what the values at the ends of a step and its
-      /// neighbours do not make, or that of the parts of an oscillation.
-      double width_in(const long m) const
+      /// Width of a block of the height and area of what a step and its neighbours have beyond the
+      /// line between their ends, or that of the parts of an oscillation; and the time of the
+      /// largest such value.
+      std::pair<double, double> width_and_time(const long m) const
       {
-        const long n = std::max(n_samples, samples_of_run / 10);
-        double area = 0., height = 0., before = 0.;
+        const long n = 3 * std::max(n_samples, samples_of_run / 10);
+        const double begin = start + std::max(0L, m - 1) * step,
+                     end = start + std::min(m + 2, n_steps) * step, length = end - begin,
+                     first = excitation.at(begin), last_value = excitation.at(end);
+        double area = 0., height = 0., before = 0., time = begin;
         int n_turns = 0;
-        const double first = excitation.at(start + m * step),
-                     end = excitation.at(start + (m + 1.) * step);
         for (long k = 0; k <= n; ++k)
         {
           const double part = static_cast<double>(k) / n,
-                       off =
-                           excitation.at(start + (m + part) * step) - first - part * (end - first);
+                       off = excitation.at(begin + part * length) - first -
+                             part * (last_value - first);
           area += std::fabs(off) / n;
-          height = std::max(height, std::fabs(off));
           n_turns += off * before < 0.;
           before = off == 0. ? before : off;
+          if (std::fabs(off) <= height)
+            continue;
+          height = std::fabs(off);
+          time = begin + part * length;
         }
-        return height > 0. ? area / height * step / (1 + n_turns) : step;
+        return {height > 0. ? area / height * length / (1 + n_turns) : step, time};
       }
 
       const Excitation &excitation;
-      const double start, step;
-      const long n_samples; ///< of a step
-      double at_start = 0., last = 0.;
+      const double at_start, start, step;
+      const long n_steps, n_samples; ///< of the run, and of a step
+      double last = 0.;
       double least = 0., most = 0., excursion = 0.;
       double largest_loss = 0., largest_area = 0., largest_of_step = 0.;
       long step_of_excursion = 0, step_of_loss = 0;
@@ -196,6 +206,32 @@ namespace taut
     return all;
   }
 
+  namespace
+  {
+    UnseenFeature look_for(const Excitation &excitation, const double start, const double step,
+                           const long n_steps)
+    {
+      const double at_start = excitation.at(start);
+      const Losses losses(excitation, at_start, start, step, n_steps);
+      if (losses.sees_all())
+        return {};
+      UnseenFeature result{excitation.name, excitation.origin};
+      std::tie(result.width, result.time) = losses.narrowest();
+      // Steps that get shorter, about the feature.
+      const double first = std::max(start, result.time - around * step),
+                   length = std::min(result.time + around * step, start + n_steps * step) - first;
+      result.longest_step = step;
+      for (int k = 0; k < most_halvings; ++k)
+      {
+        result.longest_step *= .5;
+        const long n = std::max(1L, std::lround(length / result.longest_step));
+        if (Losses(excitation, at_start, first, result.longest_step, n).sees_all())
+          break;
+      }
+      return result;
+    }
+  } // namespace
+
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
                                     const Communicator &processes, const double start,
                                     const double step, const long n_steps)
@@ -204,13 +240,17 @@ namespace taut
     if (n_steps < 1 || n_steps > most_steps)
       return narrowest;
     for (const Excitation &excitation : all)
-    {
-      if (excitation.is_costly)
-        continue;
-      UnseenFeature own = Losses(excitation, start, step, n_steps).feature();
-      if (!own.name.empty() && own.width < narrowest.width)
-        narrowest = std::move(own);
-    }
+      if (!excitation.is_costly)
+        try
+        {
+          const UnseenFeature own = look_for(excitation, start, step, n_steps);
+          if (own.width < narrowest.width)
+            narrowest = own;
+        }
+        catch (const UserError &)
+        {
+          // The run says so if it comes to a time without a value.
+        }
     // The narrowest of all ranks.
     const double least = -processes.max(-narrowest.width);
     if (!std::isfinite(least))
@@ -218,6 +258,8 @@ namespace taut
     const bool is_own = narrowest.width == least;
     narrowest.width = least;
     narrowest.time = processes.max(is_own ? narrowest.time : -1.);
+    narrowest.longest_step =
+        -processes.max(is_own ? -narrowest.longest_step : -std::numeric_limits<double>::infinity());
     for (std::string *const text : {&narrowest.name, &narrowest.origin})
     {
       const std::vector<std::string> of_ranks = processes.gather(is_own ? *text : "");

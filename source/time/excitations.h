@@ -30,13 +30,13 @@ namespace taut
   /// What steps of one length do not see of an excitation.
   struct UnseenFeature
   {
-    std::string name, origin;                               ///< of the excitation; empty name: none
-    double time = 0.;                                       ///< where most is lost [s]
-    double width = std::numeric_limits<double>::infinity(); ///< of a block of the same height and
-                                                            ///< area there [s]
+    std::string name, origin; ///< of the excitation; empty name: none
+    double time = 0.;         ///< where most is lost [s]
+    /// Of a block of the same height and area there; infinite: there is none [s].
+    double width = std::numeric_limits<double>::infinity();
 
-    /// The longest step that sees it: four in its width. Infinite: there is none.
-    double longest_step() const { return .25 * width; }
+    /// The longest step that sees it, a part of the step by a power of two [s].
+    double longest_step = std::numeric_limits<double>::infinity();
   };
 
   /**
@@ -47,8 +47,8 @@ namespace taut
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
    * between the ends of steps, both from the value at the start. A load is seen if their difference
-   * in ten steps is at most a tenth of the largest area in ten steps. So a jump inside a step is
-   * seen: it is late by a part of a step. Of a sine the fifth of a period is seen. A place also has
+   * in twenty steps is at most 4 % of the largest area in twenty steps. So a jump inside a step is
+   * seen: it is late by a part of a step. Of a sine the ninth of a period is seen. A place also has
    * to stay within its values at both ends of each step, by a tenth of its range. Called by all
    * ranks together.
    */

@@ -14,9 +14,9 @@ namespace taut
   } // namespace
 
   LoadSampling::LoadSampling(std::vector<Excitation> excitations, const Communicator &processes,
-                             const double reference_step, const double longest)
+                             const double reference_step, const double most_between)
       : all(std::move(excitations)), processes(processes), reference_step(reference_step),
-        between(std::min(reference_step / samples_of_reference, longest)),
+        between(std::min(reference_step / samples_of_reference, most_between)),
         is_constant(!processes.any(!all.empty())), largest(all.size(), 0.)
   {
   }

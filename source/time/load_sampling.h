@@ -20,10 +20,9 @@ namespace taut
   class LoadSampling
   {
   public:
-    /// For steps about @p reference_step [s]; @p longest is UnseenFeature::longest_step(), or
-    /// infinite.
+    /// For steps about @p reference_step [s]; samples are at most @p between apart [s].
     LoadSampling(std::vector<Excitation> all, const Communicator &processes, double reference_step,
-                 double longest);
+                 double between);
 
     /// True if both integrals over @p length [s] from @p t [s] agree within @p tolerance times the
     /// largest value so far times the reference step. Called by all ranks together.

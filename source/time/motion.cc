@@ -548,9 +548,9 @@ namespace taut
   bool Motion::resolves_loads(const double length, const double tolerance)
   {
     if (!parts->loads)
-      parts->loads = std::make_unique<LoadSampling>(
-          excitations(structure, constraints), structure.communicator(), options.step,
-          unseen_feature().longest_step());
+      parts->loads = std::make_unique<LoadSampling>(excitations(structure, constraints),
+                                                    structure.communicator(), options.step,
+                                                    .25 * unseen_feature().width);
     return parts->loads->is_resolved(parts->state.time, length, tolerance);
   }
 

@@ -20,6 +20,9 @@ namespace taut
     constexpr double first_time = .0137;
     constexpr int n_times = 16;
 
+    /// Part of the largest value below which a value is rounding.
+    constexpr double negligible = 1e-18;
+
     /// Times of a look at all elements [1/s].
     constexpr double looks_per_second = 4.;
 
@@ -120,7 +123,6 @@ namespace taut
   void SmoothLoad::make_panels(const std::vector<LoadedElement> &elements, const std::size_t m)
   {
     panels.clear();
-    places.clear();
     check_places.clear();
     const std::size_t n_panels = (elements.size() + m - 1) / m;
     for (std::size_t p = 0; p < n_panels; ++p)
@@ -131,7 +133,7 @@ namespace taut
       const double begin = elements[panel.begin].begin,
                    end = elements[panel.end - 1].begin + elements[panel.end - 1].length;
       for (unsigned int k = 0; k < n_points; ++k)
-        places.push_back(panel.places[k] = begin + .5 * (end - begin) * (1. + points().x[k]));
+        panel.places[k] = begin + .5 * (end - begin) * (1. + points().x[k]);
       for (std::size_t e = panel.begin; e < panel.end; ++e)
         for (unsigned int c = 0; c < n_checks; ++c)
           check_places.push_back(elements[e].begin + (c + .5) / n_checks * elements[e].length);
@@ -166,10 +168,47 @@ namespace taut
       }
   }
 
+  /// Sets the values at t, zero in panels where they are rounding at both ends and in the middle,
+  /// and there in both neighbours.
+  void SmoothLoad::set_values(const double t) const
+  {
+    constexpr unsigned int n_probes = 3, stride = (n_points - 1) / (n_probes - 1);
+    some_places.clear();
+    for (const Panel &panel : panels)
+      for (unsigned int k = 0; k < n_points; k += stride)
+        some_places.push_back(panel.places[k]);
+    magnitude.evaluate(some_places, t, some_values);
+    const double rounding = negligible * largest_of(some_values);
+    values.assign(n_points * panels.size(), 0.);
+    is_active.assign(panels.size(), 0);
+    for (std::size_t p = 0; p < panels.size(); ++p)
+      for (unsigned int k = 0; k < n_probes; ++k)
+      {
+        const double value = some_values[n_probes * p + k];
+        values[n_points * p + stride * k] = value;
+        for (std::size_t q = p - (p > 0);
+             std::fabs(value) > rounding && q < panels.size() && q <= p + 1; ++q)
+          is_active[q] = 1;
+      }
+    some_places.clear();
+    for (std::size_t p = 0; p < panels.size(); ++p)
+      for (unsigned int k = 0; k < n_points; ++k)
+        if (!is_active[p])
+          values[n_points * p + k] = 0.;
+        else if (k % stride != 0)
+          some_places.push_back(panels[p].places[k]);
+    magnitude.evaluate(some_places, t, some_values);
+    std::size_t next = 0;
+    for (std::size_t p = 0; p < panels.size(); ++p)
+      for (unsigned int k = 0; k < n_points && is_active[p]; ++k)
+        if (k % stride != 0)
+          values[n_points * p + k] = some_values[next++];
+  }
+
   /// Sets the values at t; whether the series of all panels end.
   bool SmoothLoad::look(const double t) const
   {
-    magnitude.evaluate(places, t, values);
+    set_values(t);
     const double bound = tolerance * largest_of(values);
     for (std::size_t p = 0; p < panels.size(); ++p)
     {
@@ -233,9 +272,9 @@ namespace taut
       return false;
     for (std::size_t p = 0; p < panels.size(); ++p)
     {
-      const double *const q = values.data() + n_points * p;
-      if (std::all_of(q, q + n_points, [](const double value) { return value == 0.; }))
+      if (!is_active[p])
         continue;
+      const double *const q = values.data() + n_points * p;
       const std::size_t n_dofs = panels[p].forces.size() / n_points;
       double *const to = P.data() + panels[p].first_dof;
       const double *from = panels[p].forces.data();

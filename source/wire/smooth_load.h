@@ -60,15 +60,17 @@ namespace taut
 
     void make_panels(const std::vector<LoadedElement> &elements, std::size_t n_in_panel);
     void add_forces(const std::vector<LoadedElement> &elements, Panel &panel) const;
+    void set_values(double t) const;
     bool look(double t) const;
     bool is_seen(double t) const;
 
     Expression magnitude;
     std::vector<Panel> panels;
-    std::vector<double> places, check_places; ///< of all panels, and in all elements [m]
+    std::vector<double> check_places; ///< in all elements [m]
 
     // What the last call found, kept for its memory and for the next call at a time near it.
-    mutable std::vector<double> values, checks;
+    mutable std::vector<double> values, checks, some_places, some_values;
+    mutable std::vector<char> is_active; ///< panels under the load
     mutable long quarter = -1;
     mutable bool quarter_is_seen = false;
   };

@@ -158,7 +158,6 @@ namespace
     EXPECT_LE(alarms, most_alarms * (agreed + alarms));
     EXPECT_LE(undecided, most_undecided * n);
   }
-}
 } // namespace
 
 TEST(Hunt, no_answer_is_silent_and_wrong)

@@ -68,9 +68,8 @@ namespace
             return;
           double largest = 0.;
           const std::size_t k = view.structure.size() - 1;
-          for (std::size_t i = 0; i < view.state.U[k].size(); ++i)
-            if (std::fabs(view.state.U[k][i]) > std::fabs(largest))
-              largest = view.state.U[k][i];
+          for (const double x : view.state.U[k])
+            raise(largest, x);
           u.push_back(largest);
         });
     if (log)
@@ -101,11 +100,11 @@ TEST(UnseenFeatures, pulse_on_a_mass_at_rest)
   const std::string scene = loaded_mass("t > 0.1028 && t < 0.1032 ? 500 : 0");
   std::string log;
   motion_of(scene, 1e-3, {}, &log);
-  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0004 s at t = 0.1025 s"))
+  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0004 s at t = 0.1028 s"))
       << log;
   EXPECT_TRUE(has(log, "Steps: not checked, as something lies between them")) << log;
   const double step = needed(log);
-  EXPECT_NEAR(step, 1e-4, 2e-6);
+  EXPECT_NEAR(step, 1e-3 / 64., 1e-7);
   const std::vector<double> u = motion_of(scene, step, {"Time.Step=" + number(step)}, &log);
   EXPECT_FALSE(has(log, "Warning")) << log;
   EXPECT_NEAR(
@@ -120,11 +119,11 @@ TEST(UnseenFeatures, pulse_beside_a_slow_load)
   EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0008 s")) << log;
 }
 
-// What steps see is no pulse: jumps, vibrations of eight steps, a pulse of ten.
+// What steps see is no pulse: jumps, vibrations of ten steps, a pulse of ten.
 TEST(UnseenFeatures, what_steps_see_is_not_warned_of)
 {
   for (const std::string load :
-       {"t < 0.3005 ? 0 : 5", "sin(785*t)", "exp(-((t-.3)/5e-3)^2)", "3", "t < .20003 ? 9*t : 2"})
+       {"t < 0.3005 ? 0 : 5", "sin(628*t)", "exp(-((t-.3)/5e-3)^2)", "3", "t < .20003 ? 9*t : 2"})
   {
     std::string log;
     motion_of(loaded_mass(load), 1e-3, {}, &log);
@@ -178,10 +177,15 @@ TEST(UnseenFeatures, random_features_are_seen_or_warned_of)
       coarse = coarse + Overrides{"Time.Step control=adaptive", "Time.Adaptive step.Doublings=0"};
     const int finer = std::max(1, static_cast<int>(std::ceil(std::log2(step / (width / 16.)))));
     std::string log;
-    const std::vector<double> u = motion_of(scene, step, coarse, &log),
-                              exact = motion_of(scene, step,
-                                                {"Time.Step=" + number(std::ldexp(step, -finer)),
-                                                 "Time.Check steps=no"});
+    std::vector<double> u;
+    const std::string refused = error_of([&] { u = motion_of(scene, step, coarse, &log); });
+    if (!refused.empty())
+    {
+      ++n_warned;
+      continue;
+    }
+    const std::vector<double> exact = motion_of(
+        scene, step, {"Time.Step=" + number(std::ldexp(step, -finer)), "Time.Check steps=no"});
     double error = 0.;
     for (std::size_t k = 0; k < std::min(u.size(), exact.size()); ++k)
       raise(error, u[k] - exact[k]);
