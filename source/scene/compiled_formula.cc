@@ -7,6 +7,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace taut
@@ -66,6 +67,10 @@ namespace taut
     {
       return std::pow(a, b);
     }
+    double square(const double x)
+    {
+      return x * x;
+    }
     double error_function(const double x)
     {
       return std::erf(x);
@@ -90,6 +95,7 @@ namespace taut
       parser.DefineFun("sec", secant, true);
       parser.DefineFun("log", logarithm, true);
       parser.DefineFun("pow", power, true);
+      parser.DefineFun("square", square, true);
       parser.DefineFun("erf", error_function, true);
       parser.DefineFun("erfc", complementary_error_function, true);
     }
@@ -114,13 +120,39 @@ namespace taut
       return text;
     }
 
+    /// "square(x)" for "(x)^2", and for "sin(x)^2" "square(sin(x))": a general power takes ten
+    /// times as long.
+    std::string with_squares(std::string text)
+    {
+      const std::string mark = ")^2";
+      for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos;)
+      {
+        const std::size_t behind = at + mark.size();
+        std::size_t begin = at;
+        for (int depth = 1; depth > 0 && begin > 0;)
+          depth += text[--begin] == ')' ? 1 : text[begin] == '(' ? -1 : 0;
+        while (begin > 0 && (std::isalnum(static_cast<unsigned char>(text[begin - 1])) ||
+                             text[begin - 1] == '_'))
+          --begin;
+        at = behind;
+        // Longer exponents, and towers of powers, stay as they are.
+        if (text.find_first_of("0123456789.^eE", behind) == behind || text[begin] == ')' ||
+            (begin > 0 && text[begin - 1] == '^'))
+          continue;
+        const std::string base = text.substr(begin, behind - mark.size() + 1 - begin);
+        text.replace(begin, behind - begin, "square(" + base + ")");
+        at = begin + std::string("square(").size();
+      }
+      return text;
+    }
+
     /// As muParser reads it. Lists of formulas, which deal.II separates by ';', are refused.
     std::string one_formula(const std::string &text)
     {
       const std::vector<std::string> parts = dealii::Utilities::split_string_list(text, ';');
       if (parts.size() != 1)
         throw FormulaError("it is not one formula");
-      return without_blanks_after_functions(parts.front());
+      return with_squares(without_blanks_after_functions(parts.front()));
     }
 
     /// The first line of what muParser says, without its full stop.

@@ -265,8 +265,11 @@ namespace taut
     const long now = static_cast<long>(std::floor(t * looks_per_second));
     if (now != quarter)
     {
+      const bool follows = now == quarter + 1 && next_is_seen.has_value();
+      quarter_is_seen = follows ? *next_is_seen : is_seen(now / looks_per_second);
+      next_is_seen = is_seen((now + 1.) / looks_per_second);
+      quarter_is_seen = quarter_is_seen && *next_is_seen;
       quarter = now;
-      quarter_is_seen = is_seen(now / looks_per_second) && is_seen((now + 1.) / looks_per_second);
     }
     if (!quarter_is_seen || !look(t))
       return false;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace taut
@@ -73,6 +74,7 @@ namespace taut
     mutable std::vector<char> is_active; ///< panels under the load
     mutable long quarter = -1;
     mutable bool quarter_is_seen = false;
+    mutable std::optional<bool> next_is_seen; ///< at its end
   };
 } // namespace taut
 
