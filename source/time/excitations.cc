@@ -24,8 +24,8 @@ namespace taut
     constexpr long most_steps = 10'000'000;
 
     /// Steps whose areas are compared, and the parts of areas and of the range that may be lost.
-    constexpr std::size_t window = 20;
-    constexpr double lost_area = .04, lost_range = .1;
+    constexpr std::size_t window = 40;
+    constexpr double lost_area = .02, lost_range = .1;
 
     /// Steps on both sides of a feature, and halvings, in the search of a step that sees it.
     constexpr double around = 2.;
@@ -90,19 +90,15 @@ namespace taut
         most = std::max(most, high);
         const double loss = std::fabs(area - .5 * (last + before));
         last = before;
-        std::array<double, 2> &oldest = of_steps[m % window];
         if (loss > largest_of_step)
         {
           largest_of_step = loss;
           step_of_loss = m;
         }
+        std::array<double, 2> &oldest = of_steps[m % window];
+        losses += loss - oldest[0];
+        sizes += size - oldest[1];
         oldest = {loss, size};
-        double losses = 0., sizes = 0.;
-        for (const auto &[of_step, size_of_step] : of_steps)
-        {
-          losses += of_step;
-          sizes += size_of_step;
-        }
         largest_loss = std::max(largest_loss, losses);
         largest_area = std::max(largest_area, sizes);
       }
@@ -139,6 +135,7 @@ namespace taut
       const long n_steps, n_samples; ///< of the run, and of a step
       double last = 0.;
       double least = 0., most = 0., excursion = 0.;
+      double losses = 0., sizes = 0.; ///< in the last steps
       double largest_loss = 0., largest_area = 0., largest_of_step = 0.;
       long step_of_excursion = 0, step_of_loss = 0;
       std::array<std::array<double, 2>, window> of_steps =

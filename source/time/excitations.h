@@ -47,10 +47,10 @@ namespace taut
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
    * between the ends of steps, both from the value at the start. A load is seen if their difference
-   * in twenty steps is at most 4 % of the largest area in twenty steps. So a jump inside a step is
-   * seen: it is late by a part of a step. Of a sine the ninth of a period is seen. A place also has
-   * to stay within its values at both ends of each step, by a tenth of its range. Called by all
-   * ranks together.
+   * in forty steps is at most 2 % of the largest area in forty steps. So a jump inside a step is
+   * seen: it is late by a part of a step. Of a sine the thirteenth of a period is seen. A place
+   * also has to stay within its values at both ends of each step, by a tenth of its range. Called
+   * by all ranks together.
    */
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
                                     const Communicator &processes, double start, double step,
