@@ -11,6 +11,12 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Levels beyond that of the file at which quantities are looked for.
+    constexpr int most_finer_for_names = 3;
+  } // namespace
+
   TrialRuns::TrialRuns(std::string file, std::vector<std::string> overrides)
       : file(std::move(file)), overrides(std::move(overrides))
   {
@@ -56,30 +62,25 @@ namespace taut
       return;
     CaseRunner runner(file, overrides);
     runner.stop_if([this]() { return ask(); });
-    std::vector<NamedQuantity> known;
-    bool has_run = false;
-    for (Levels levels(all_refinements.size(), 0); !has_run; ++levels[0])
+    std::vector<std::string> names;
+    // A coarse run may fail, or see nothing move.
+    for (Levels levels(all_refinements.size(), 0); names.empty(); ++levels[0])
       try
       {
-        known = runner.run(entries(levels)).quantities;
-        has_run = true;
+        names = default_quantities(runner.run(entries(levels)).quantities);
       }
-      catch (const UserError &)
+      catch (const UserError &e)
       {
-        if (levels[0] == all_refinements[0].n_coarser)
+        if (levels[0] >= all_refinements[0].n_coarser + most_finer_for_names)
+        {
+          if (const auto *const of_entry = dynamic_cast<const EntryError *>(&e))
+            throw UserError(file_parameters.explain(*of_entry));
           throw;
+        }
         for (std::size_t d = 1; d < levels.size(); ++d)
           levels[d] = std::min(levels[d] + 1, all_refinements[d].n_coarser);
       }
-    try
-    {
-      const std::vector<std::string> names = default_quantities(known);
-      overrides.insert(overrides.end(), names.begin(), names.end());
-    }
-    catch (const EntryError &e)
-    {
-      throw UserError(file_parameters.explain(e));
-    }
+    overrides.insert(overrides.end(), names.begin(), names.end());
     file_parameters.read(file, overrides);
   }
 
