@@ -58,7 +58,7 @@ namespace
     Folder folder;
     const std::string file =
         folder.write("scene.prm", SceneBuilder(scene + "Output: Field interval = 0\n").text());
-    const Overrides own = {"Output/Folder=" + folder / "results", "Study/Budget=60"};
+    const Overrides own = {"Output/Folder=" + (folder / "results"), "Study/Budget=60"};
     std::ostringstream log;
     taut::AccuracySearch search(file, own, accuracy, true, log);
     const taut::StudySetting best = search.run();
