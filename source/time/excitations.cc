@@ -20,6 +20,16 @@ namespace taut
     /// Samples of a run and of a step, at least.
     constexpr long samples_of_run = 20000, samples_of_step = 8;
 
+    /// Samples of all excitations together, about some seconds; a step has two at least.
+    constexpr long most_samples = 40'000'000;
+
+    /// Samples in each of some steps, of so many excitations.
+    long samples_in_step(const long n_steps, const long n_excitations)
+    {
+      const long wanted = std::max(samples_of_step, samples_of_run / n_steps + 1);
+      return std::max(2L, std::min(wanted, most_samples / n_steps / n_excitations));
+    }
+
     /// Longer runs are not searched.
     constexpr long most_steps = 10'000'000;
 
@@ -37,9 +47,9 @@ namespace taut
     public:
       /// @p at_rest is the value at the start of the run.
       Losses(const Excitation &excitation, const double at_rest, const double start,
-             const double step, const long n_steps)
+             const double step, const long n_steps, const long n_samples)
           : excitation(excitation), at_start(at_rest), start(start), step(step), n_steps(n_steps),
-            n_samples(std::max(samples_of_step, samples_of_run / n_steps + 1))
+            n_samples(n_samples)
       {
         last = excitation.at(start) - at_start;
         least = most = last;
@@ -206,10 +216,10 @@ namespace taut
   namespace
   {
     UnseenFeature look_for(const Excitation &excitation, const double start, const double step,
-                           const long n_steps)
+                           const long n_steps, const long n_samples)
     {
       const double at_start = excitation.at(start);
-      const Losses losses(excitation, at_start, start, step, n_steps);
+      const Losses losses(excitation, at_start, start, step, n_steps, n_samples);
       if (losses.sees_all())
         return {};
       UnseenFeature result{excitation.name, excitation.origin};
@@ -222,7 +232,8 @@ namespace taut
       {
         result.longest_step *= .5;
         const long n = std::max(1L, std::lround(length / result.longest_step));
-        if (Losses(excitation, at_start, first, result.longest_step, n).sees_all())
+        if (Losses(excitation, at_start, first, result.longest_step, n, samples_in_step(n, 1))
+                .sees_all())
           break;
       }
       return result;
@@ -236,11 +247,12 @@ namespace taut
     UnseenFeature narrowest;
     if (n_steps < 1 || n_steps > most_steps)
       return narrowest;
+    const long n_samples = samples_in_step(n_steps, static_cast<long>(all.size()) + 1);
     for (const Excitation &excitation : all)
       if (!excitation.is_costly)
         try
         {
-          const UnseenFeature own = look_for(excitation, start, step, n_steps);
+          const UnseenFeature own = look_for(excitation, start, step, n_steps, n_samples);
           if (own.width < narrowest.width)
             narrowest = own;
         }

@@ -609,6 +609,7 @@ namespace taut
     Parts &p = *parts;
     p.step.reset();
     p.projection.reset();
+    p.loads.reset();
     prepare_method(p.n_steps <= 1 ? *first_scheme : *integrator, StepCoefficients(p.method.c));
     if (p.projection && !largest_rates.empty())
       p.projection->set_largest_rates(largest_rates);
