@@ -67,7 +67,9 @@ namespace taut
 
   const StudySetting &AccuracySearch::search()
   {
-    constexpr int most_finer = 4;
+    // Levels finer than the file; more if steps do not see all of the scene.
+    constexpr int most_for_features = 12;
+    int most_finer = 4;
     const std::vector<Refinement> &refinements = runs.refinements();
     Levels centre(refinements.size(), 1);
     const auto is_fine_enough = [&]()
@@ -81,6 +83,12 @@ namespace taut
     {
       if (!star_runs(centre))
       {
+        if (misses_something && most_finer < most_for_features)
+        {
+          ++most_finer;
+          ++centre[0];
+          continue;
+        }
         for (int &level : centre)
           ++level;
         continue;
@@ -107,10 +115,11 @@ namespace taut
       {
         Levels levels = centre;
         levels[d] += move;
-        const std::string &message = runs.at(levels).message;
-        if (!message.empty())
+        const TrialRuns::Trial &trial = runs.at(levels);
+        if (!trial.message.empty())
         {
-          failure = message;
+          failure = trial.message;
+          misses_something = !trial.run.unseen.empty();
           return false;
         }
       }

@@ -63,6 +63,7 @@ namespace taut
     std::vector<QuantityReference> step_limits; ///< of each quantity, at the mesh of the centre
     std::vector<double> changes;                ///< relative, the largest along each refinement
     std::string second_scheme, failure;
+    bool misses_something = false; ///< the failure is that of steps that do not see all
     StudyResult study;
   };
 } // namespace taut
