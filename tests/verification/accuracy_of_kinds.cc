@@ -22,7 +22,8 @@ namespace
       "Spring k: From = ground; To = m; Stiffness = 500\n"
       "Link contact: Type = sliding contact; From = m; To = wire @ 5; Direction = 0, 1;\n"
       "  Stiffness = 5000; Speed = 20; Height profile = 2e-3*exp(-((s-17.03)/.05)^2)\n"
-      "Load force: On = m; Magnitude = 60\nProbe p: Point = m\nTime: Step = 5e-3; End = 1\n";
+      "Load force: On = m; Magnitude = 60\nProbe p: Point = m\nTime: Step = 5e-3; End = 1\n"
+      "Quantity largest: Of = p; Quantity = largest\n";
 
   const std::string rattling_mass =
       "Gravity = 0, 0; Start = given\n"
