@@ -24,7 +24,7 @@ namespace taut
     constexpr double rounding_of_places = 1e-9, rounding_of_forces = 1e-15;
 
     /// Recorded places of this rank, if bodies have more.
-    constexpr std::size_t most_places = 2000;
+    constexpr std::size_t most_places = 500;
 
     /// Prescribed DoFs of a group that others may ride on.
     constexpr std::size_t most_bases = 3;

@@ -39,7 +39,7 @@ namespace taut
    * recorded at equal intervals of time. Impulses of constraints since the start are recorded at
    * the ends of steps, as contacts are shorter than such an interval.
    *
-   * Of bodies with many DoFs some thousand places are recorded, at least one of each body.
+   * Of bodies with many DoFs some hundred places are recorded, at least one of each body.
    * Rotations of lumped bodies are compared like places; slopes of wires are not, as their places
    * say it. A place is measured by the largest own motion of its group: that of free DoFs, and
    * relative to a base with a prescribed motion if this is less.

@@ -23,6 +23,10 @@ namespace taut
     /// Part of the largest value below which a value is rounding.
     constexpr double negligible = 1e-18;
 
+    /// A load below this part of its size at set-up counts as if it had that much: the tail of a
+    /// gust that has passed.
+    constexpr double little = 1e-3;
+
     /// Times of a look at all elements [1/s].
     constexpr double looks_per_second = 4.;
 
@@ -97,25 +101,40 @@ namespace taut
     if (!magnitude.is_analytic())
       return;
     const std::size_t fewest = std::min(fewest_elements, elements.size());
+    std::vector<double> times(1, 0.);
+    for (int k = 0; k < n_times; ++k)
+      times.push_back(std::ldexp(first_time, k));
+    const auto at_all_times = [&](const auto &is_fine)
+    {
+      return std::all_of(times.begin(), times.end(),
+                         [&](const double t)
+                         {
+                           try
+                           {
+                             return is_fine(t);
+                           }
+                           catch (const UserError &)
+                           {
+                             return true; // the run may never come to this time
+                           }
+                         });
+    };
+    make_panels(elements, fewest);
+    at_all_times(
+        [&](const double t)
+        {
+          set_values(t);
+          size = std::max(size, largest_of(values));
+          return true;
+        });
     for (std::size_t m = most_elements; m >= fewest && m > 1; m /= 2)
     {
       make_panels(elements, m);
-      bool resolves = true;
-      for (int k = 0; k <= n_times && resolves; ++k)
-        try
-        {
-          resolves = look(k == 0 ? 0. : std::ldexp(first_time, k - 1));
-        }
-        catch (const UserError &)
-        {
-          // The run may never come to a time at which the formula has no value.
-        }
-      if (resolves)
-      {
-        for (Panel &panel : panels)
-          add_forces(elements, panel);
-        return;
-      }
+      if (!at_all_times([&](const double t) { return look(t); }))
+        continue;
+      for (Panel &panel : panels)
+        add_forces(elements, panel);
+      return;
     }
     panels.clear();
   }
@@ -168,6 +187,12 @@ namespace taut
       }
   }
 
+  /// What errors are relative to, at a time with this largest value.
+  double SmoothLoad::scale(const double largest) const
+  {
+    return std::max(largest, little * size);
+  }
+
   /// Sets the values at t, zero in panels where they are rounding at both ends and in the middle,
   /// and there in both neighbours.
   void SmoothLoad::set_values(const double t) const
@@ -209,7 +234,7 @@ namespace taut
   bool SmoothLoad::look(const double t) const
   {
     set_values(t);
-    const double bound = tolerance * largest_of(values);
+    const double bound = tolerance * scale(largest_of(values));
     for (std::size_t p = 0; p < panels.size(); ++p)
     {
       double last = 0.;
@@ -238,7 +263,7 @@ namespace taut
     {
       return true; // no run comes to this time, or it says so
     }
-    const double bound = detail * std::max(largest_of(values), largest_of(checks));
+    const double bound = detail * scale(std::max(largest_of(values), largest_of(checks)));
     std::size_t c = 0;
     for (std::size_t p = 0; p < panels.size(); ++p)
     {

@@ -38,7 +38,8 @@ namespace taut
   class SmoothLoad
   {
   public:
-    /// The error of a polynomial, over the largest value of the load.
+    /// The error of a polynomial, over the largest value of the load at the time, or a thousandth
+    /// of that at set-up.
     static constexpr double tolerance = 1e-7;
 
     /// Elements one after the other; they are used here alone.
@@ -63,9 +64,11 @@ namespace taut
     void add_forces(const std::vector<LoadedElement> &elements, Panel &panel) const;
     void set_values(double t) const;
     bool look(double t) const;
+    double scale(double largest) const;
     bool is_seen(double t) const;
 
     Expression magnitude;
+    double size = 0.; ///< largest value at set-up
     std::vector<Panel> panels;
     std::vector<double> check_places; ///< in all elements [m]
 
