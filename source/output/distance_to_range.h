@@ -13,6 +13,9 @@ namespace taut
     return a == 0. ? 0. : a / b;
   }
 
+  /// Two runs whose sizes differ by this factor did not see the same scene.
+  constexpr double much_smaller = 2.;
+
   /// Distance of @p x from the range of the values @p first to @p last; 0 inside.
   template <typename Value>
   double distance_to_range(const double x, const std::size_t first, const std::size_t last,

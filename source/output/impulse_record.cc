@@ -137,12 +137,16 @@ namespace taut
       return result;
     const std::vector<double> others = other.at(times);
     const std::size_t n = items.size();
-    for (const std::vector<double> *const all : {&impulses, &others})
+    std::vector<double> own = largest;
+    for (const auto &[all, of_groups] : {std::pair(&others, &largest), std::pair(&impulses, &own)})
       for (std::size_t e = 0; e < all->size(); ++e)
       {
-        double &of_group = largest[items[e % n].group];
+        double &of_group = (*of_groups)[items[e % n].group];
         of_group = std::max(of_group, std::fabs((*all)[e]));
       }
+    for (std::size_t q = 0; q < own.size(); ++q)
+      if (own[q] > much_smaller * largest[q])
+        largest[q] = own[q];
     for (std::size_t k = 0; k < times.size() && times[k] <= other.times.back() + rounding; ++k)
       for (std::size_t i = 0; i < n; ++i)
       {

@@ -32,9 +32,10 @@ namespace taut
 
     /**
      * The largest difference from the other impulses, and its constraint; -1: nothing differs. The
-     * difference is relative to the largest impulse of the group and kind in both runs, or to @p
-     * largest [N s, N m s] of them if that is more. An impulse may be early or late by @p late [s],
-     * or by one end of a step. The comparison ends with the other run, but for @p rounding [s].
+     * difference is relative to the largest other impulse of the group and kind, or to that of this
+     * run if it is more than twice as large, or to @p largest [N s, N m s] if that is more. An
+     * impulse may be early or late by @p late [s], or by one end of a step. The comparison ends
+     * with the other run, but for @p rounding [s].
      */
     std::pair<double, std::size_t> difference(const ImpulseRecord &other,
                                               std::vector<double> largest,

@@ -23,7 +23,7 @@ namespace taut
     /// its loads would make alone: a force that others balance rounds by this part of itself.
     constexpr double rounding_of_places = 1e-9, rounding_of_forces = 1e-15;
 
-    /// Recorded places of this rank, if bodies have more.
+    /// Recorded places of all ranks, if bodies have more.
     constexpr std::size_t most_places = 500;
 
     /// Prescribed DoFs of a group that others may ride on.
@@ -68,8 +68,8 @@ namespace taut
         begin(start.time), interval(interval), n(n), impulses(structure, constraints, groups, start)
   {
     std::size_t n_all = 0;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      n_all += structure[k].n_dofs();
+    for (const Structure::Body &body : structure.all_bodies())
+      n_all += body.n_dofs;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -188,12 +188,14 @@ namespace taut
     std::vector<double> late;    ///< tolerated shift of an impact [s]
     std::vector<double> energy;  ///< by group [J]
 
+    /// Takes those of another run where these are much smaller: this run saw less.
     void add(const Sizes &other)
     {
       const auto raise = [](std::vector<double> &a, const std::vector<double> &b)
       {
         for (std::size_t i = 0; i < a.size(); ++i)
-          a[i] = std::max(a[i], b[i]);
+          if (b[i] > much_smaller * a[i])
+            a[i] = b[i];
       };
       raise(place, other.place);
       raise(impulse, other.impulse);

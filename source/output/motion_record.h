@@ -14,8 +14,9 @@
 
 namespace taut
 {
-  /// The difference of two motions, relative to the largest values of both, in the group of
-  /// connected bodies with the largest difference.
+  /// The difference of two motions, relative to the largest values of the second one, or of the
+  /// first where these are more than twice as large, in the group of connected bodies with the
+  /// largest difference.
   struct MotionDifference
   {
     double place = 0., impulse = 0., energy = 0.; ///< [1]

@@ -216,7 +216,7 @@ namespace taut
     std::shared_ptr<const TimeIntegrator> first_scheme; ///< of the first step
     std::vector<LongestStep> longest_steps;             ///< of constraints with dampers
     std::unique_ptr<Parts> parts;
-    std::unique_ptr<UnseenFeature> unseen; ///< after the first search
+    std::unique_ptr<UnseenFeature> unseen;          ///< after the first search
     std::vector<std::vector<double>> first_courses; ///< of sliding rows at the start
     const StepReport no_report;                     ///< before the first step
     StepCosts no_costs;                             ///< of a motion that is not prepared
