@@ -27,6 +27,7 @@ namespace hunt
   {
     const double frequency = short_number(draft.random.uniform(.5, 8.) / draft.scales.t);
     draft.scene.frequency = frequency;
+    draft.scene.is_driven = true;
     return draft.draw(draft.scales.l, -1., 1.) + "*sin(" + number(frequency) + "*t)";
   }
 
@@ -177,21 +178,6 @@ namespace hunt
       return draft.finish(step_decades, 1.5, 4.);
     }
 
-    /// A law as that of law(), with a damper beside it.
-    HuntScene law_with_damper(Draft draft)
-    {
-      const Scales &s = draft.scales;
-      add_chain(draft, draft.random.integer(1, 2), draft.random.chance(.5));
-      const double k = s.k() * draft.random.decades(-1, 5), u = s.l / std::sqrt(k / s.k()),
-                   f1 = .3 * k * u, f2 = f1 + .7 * u * k * draft.random.decades(-1, 1.5);
-      add_stop(draft, "floor", "m0",
-               "Law = table; Law points = " + number(short_number(.3 * u)) + ": " +
-                   number(short_number(f1)) + ", " + number(short_number(u)) + ": " +
-                   number(short_number(f2)) +
-                   "; Damping = " + draft.draw_decades(2. * std::sqrt(k * s.m), -2, 0));
-      return draft.finish(step_decades, 1.5, 4.);
-    }
-
     /// Masses that turn about one axis, on torsional springs and stops; numbers as of add_chain().
     HuntScene torsional_stop(Draft draft)
     {
@@ -237,8 +223,7 @@ namespace hunt
 
     using Family = std::pair<const char *, HuntScene (*)(Draft)>;
 
-    const std::vector<Family> of_given = {{"law with a damper", law_with_damper},
-                                          {"torsional stop", torsional_stop},
+    const std::vector<Family> of_given = {{"torsional stop", torsional_stop},
                                           {"moving base", moving_base},
                                           {"moving support", moving_support}};
 

@@ -27,6 +27,7 @@ namespace hunt
     std::string family, text;
     ReferenceKind kind = ReferenceKind::event_driven;
     double frequency = 0.;   ///< of the loads; 0: constant [rad/s]
+    bool is_driven = false;  ///< by a prescribed place: the energy of the rest is none of its own
     double restitution = 0.; ///< of rigid stops
     double reach = 0.;       ///< springs of links stay far below this compression [m]
     double step = 0.;        ///< [s]
@@ -38,7 +39,7 @@ namespace hunt
   enum class Field
   {
     contacts, ///< masses, wires and links
-    given     ///< prescribed motions, dampers in laws, rotations
+    given     ///< prescribed motions, rotations
   };
 
   /// Names of the families, in the order of the table.
