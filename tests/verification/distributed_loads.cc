@@ -271,7 +271,8 @@ TEST(DistributedLoads, smooth_loads_by_panels_are_those_by_elements)
   for (const std::string &kind : kinds)
     for (const std::string formula :
          {"3*exp(-((s-7*t-2)/3)^2)", "sin(s-2*t)+cos(.7*s)*t", "exp(-((s-7*t)/.25)^2)",
-          "exp(-((t-1)/.01)^2)*s/(1+s^2)", "tanh(s-9*t)"})
+          "exp(-((t-1)/.01)^2)*s/(1+s^2)", "tanh(s-9*t)",
+          "exp(-((t-1.12)/.02)^2)*exp(-((s-10.3)/.3)^2)"})
     {
       LoadedWire smooth(kind, formula), other(kind, formula + "+0*abs(s)");
       double difference = 0., largest = 0.;
