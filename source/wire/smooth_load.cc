@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <set>
+#include <string>
 
 namespace taut
 {
@@ -86,6 +89,19 @@ namespace taut
       return known;
     }
 
+    /// The speed v of a formula of (s - v t) alone [m/s]; 0: it is another one, or is not written
+    /// so.
+    double speed_of(const std::string &formula)
+    {
+      static const std::regex moving("\\( *s *- *([0-9.]+) *\\* *t *(?=[-+)])"), word("\\b[st]\\b");
+      std::set<std::string> speeds;
+      for (std::sregex_iterator at(formula.begin(), formula.end(), moving), end; at != end; ++at)
+        speeds.insert(at->str(1));
+      if (speeds.size() != 1 || std::regex_search(std::regex_replace(formula, moving, "( "), word))
+        return 0.;
+      return std::stod(*speeds.begin());
+    }
+
     double largest_of(const std::vector<double> &values)
     {
       double largest = 0.;
@@ -98,7 +114,10 @@ namespace taut
   SmoothLoad::SmoothLoad(const Expression &magnitude, const std::vector<LoadedElement> &elements)
       : magnitude(magnitude)
   {
-    if (!magnitude.is_analytic())
+    // What is on the wire between two looks is on it at one of them.
+    const double length = elements.back().begin + elements.back().length - elements.front().begin,
+                 speed = speed_of(magnitude.formula());
+    if (!magnitude.is_analytic() || !(speed > 0.) || 2. * speed > looks_per_second * length)
       return;
     const std::size_t fewest = std::min(fewest_elements, elements.size());
     std::vector<double> times(1, 0.);

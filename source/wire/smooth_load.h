@@ -29,7 +29,8 @@ namespace taut
    * polynomial of degree 8 through nine Gauss points, and one matrix from these values to the
    * forces of its elements.
    *
-   * Formulas count as smooth that are made of analytic functions alone. The length of panels is
+   * Formulas count as smooth that are made of analytic functions of (s - v t) alone, written so:
+   * their shape travels and does not change. The length of panels is
    * found at set-up, at some times. A panel that is not resolved shows in the last coefficients of
    * its Legendre series, at each time; what is narrower than the distance of its points shows in
    * values at five places of each element, four times a second. In either case apply() returns
