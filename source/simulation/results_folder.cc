@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -43,37 +44,49 @@ namespace taut
       return names;
     }
 
+    bool is_of_results(const std::string &name, const std::set<std::string> &names)
+    {
+      const auto begins = [&](const char *const stem) { return name.rfind(stem, 0) == 0; };
+      const std::string ending = fs::path(name).extension().string();
+      return names.count(name) || (ending == ".vtu" && (begins("wires_") || begins("links_"))) ||
+             ((ending == ".vtu" || ending == ".pvd") && (begins("body_") || begins("contact_"))) ||
+             (ending == ".csv" && begins("contact_"));
+    }
+
     /// Files of a run in a folder; none in an unreadable folder, which writing then reports.
     std::vector<fs::path> results_in(const fs::path &folder)
     {
       const std::set<std::string> names = names_of_results();
-      const auto begins = [](const std::string &name, const std::string &stem)
-      { return name.compare(0, stem.size(), stem) == 0; };
       std::vector<fs::path> results;
       std::error_code error;
       for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-      {
-        const std::string name = entry.path().filename().string(),
-                          ending = entry.path().extension().string();
-        if (names.count(name) ||
-            (ending == ".vtu" && (begins(name, "wires_") || begins(name, "links_") ||
-                                  begins(name, "body_") || begins(name, "contact_"))) ||
-            (ending == ".pvd" && (begins(name, "body_") || begins(name, "contact_"))) ||
-            (ending == ".csv" && begins(name, "contact_")))
+        if (is_of_results(entry.path().filename().string(), names))
           results.push_back(entry.path());
-      }
       return results;
     }
 
-    /// Removes what a process that was killed was about to rename. The folder is locked.
+    /// Removes what a process that was killed was about to rename: write_file() puts a host, which
+    /// may have dots, a number and .tmp behind the name of a result. The folder is locked.
     void remove_unfinished(const fs::path &folder)
     {
+      std::set<std::string> names = names_of_results();
+      for (const auto &[name, text] : data_files())
+        names.insert(copied_name(name));
+      const std::regex unfinished("(.+)\\.[0-9]+\\.tmp");
       std::error_code error;
       for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-        if (entry.path().extension() == ".tmp")
-          for (const std::string &name : names_of_results())
-            if (entry.path().filename().string().compare(0, name.size() + 1, name + ".") == 0)
-              fs::remove(entry.path(), error);
+      {
+        std::smatch parts;
+        std::string name = entry.path().filename().string();
+        if (!std::regex_match(name, parts, unfinished))
+          continue;
+        for (name = parts[1]; name.find('.') != std::string::npos;)
+        {
+          name.resize(name.rfind('.'));
+          if (is_of_results(name, names))
+            fs::remove(entry.path(), error);
+        }
+      }
     }
 
     /// Copies of the files that a run reads must not take the place of others.

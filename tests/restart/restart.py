@@ -144,7 +144,8 @@ def check_killed(folder, n, ranks, scenes, rng):
             n_kills += 1
             options = [*scene, "--resume"]
         if (own / "results").exists():  # else killed before it began
-            (own / "results" / "checkpoint.some_machine.1.tmp").write_bytes(b"what a killed run was about to rename")
+            for name in ("checkpoint.some_machine.1.tmp", "wires_00001.vtu.some.machine.1.tmp"):
+                (own / "results" / name).write_bytes(b"what a killed run was about to rename")
         result = run(own, [*scene, "--resume"], ranks)
         what = f"{scene[0]} on {ranks} ranks, run {i}"
         expect(f"{what}: resumes", result.returncode == 0, result.stderr)
