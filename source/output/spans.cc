@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/text.h"
 #include "scene/travel.h"
 #include "scene/wave_speed.h"
 #include <taut/output/spans.h>
@@ -79,7 +80,7 @@ namespace taut
       const std::vector<double> masts = masts_of(scene, wire);
       for (std::size_t i = 1; i < masts.size(); ++i)
       {
-        found.spans.push_back({masts[i - 1], masts[i]});
+        found.spans.push_back({to_text(found.name, " span ", i), masts[i - 1], masts[i]});
         for (const Link &link : scene.links)
           if (is_dropper_between_wires(link) && link.to.index == wire &&
               is_in(found.spans.back(), link.to.position))

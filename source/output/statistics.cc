@@ -10,6 +10,11 @@
 
 namespace taut
 {
+  namespace
+  {
+    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+  }
+
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
                          const Constraints &rows)
       : parameters(parameters), lines(line_constants(scene)), spanned(spanned_wires(scene)),
@@ -206,11 +211,6 @@ namespace taut
     return record;
   }
 
-  ContactFigures Statistics::figures(const Contact &contact) const
-  {
-    return ContactFigures::of(sum(contact), times, parameters);
-  }
-
   ContactQuantities Statistics::measure(const Contact &contact) const
   {
     return ContactQuantities::of(sum(contact), times, parameters);
@@ -269,22 +269,79 @@ namespace taut
     return list;
   }
 
-  std::vector<Statistics::Figure> Statistics::named_figures(const Contact &contact) const
+  std::vector<Statistics::Figure> Statistics::details_of(const Contact &contact) const
   {
-    const ContactFigures f = figures(contact);
+    const ContactFigures f = ContactFigures::of(sum(contact), times, parameters);
+    const bool is_empty = measure(contact).n_samples == 0;
+    const auto in_window = [&](const double value) { return is_empty ? not_known : value; };
     std::vector<Figure> list;
     for (const ContactFigures::Band &band : f.bands)
-      list.push_back(
-          {to_text("standard deviation ", band.from, " to ", band.to, " Hz"), "N",
-           band.is_resolved ? band.deviation : std::numeric_limits<double>::quiet_NaN()});
+      list.push_back({to_text("standard deviation ", band.from, " to ", band.to, " Hz"), "N",
+                      band.is_resolved ? band.deviation : not_known});
     for (const ContactFigures::Losses &l : f.losses)
     {
       const std::string duration = to_text(1e3 * l.longer_than, " ms");
-      list.push_back({"losses over " + duration, "1", static_cast<double>(l.number)});
-      list.push_back({"share of losses over " + duration, "share", l.share});
+      list.push_back({"losses over " + duration, "1", in_window(l.number)});
+      list.push_back({"share of losses over " + duration, "share", in_window(l.share)});
+      for (std::size_t i = list.size() - 2; i < list.size(); ++i)
+        list[i].shown_if_zero = false;
     }
     if (contact.has_height)
-      list.push_back({"height range", "m", f.height_range});
+      list.push_back({"height range", "m", in_window(f.height_range)});
+    return list;
+  }
+
+  std::vector<Statistics::Figure> Statistics::figures_of_share(const ContactQuantities &share)
+  {
+    const Moments &m = share.raw;
+    const auto in_window = [&](const double value)
+    { return share.n_samples > 0 ? value : not_known; };
+    return {{"mean share", "N", in_window(m.mean)},
+            {"largest share", "N", in_window(m.maximum)},
+            {"smallest share", "N", in_window(m.minimum)},
+            {"standard deviation of the share", "N", in_window(m.deviation)},
+            {"not touched", "share", in_window(share.loss)}};
+  }
+
+  std::vector<Statistics::Figure> Statistics::figures_of(const LineConstants &line)
+  {
+    const bool reflects = line.reflection > 0.;
+    return {{"speed", "m/s", line.speed},
+            {"wave speed", "m/s", line.wave_speed},
+            {"speed over wave speed", "1", line.speed / line.wave_speed},
+            {"doppler factor", "1", line.doppler},
+            {"reflection at droppers", "1", reflects ? line.reflection : not_known},
+            {"amplification", "1", reflects ? line.amplification : not_known}};
+  }
+
+  std::vector<Statistics::Figure> Statistics::figures_of(const SupportFigures::Figures &f)
+  {
+    const auto in_window = [&](const double value) { return f.n_samples > 0 ? value : not_known; };
+    return {{"reaction at the start", f.unit, f.at_start},
+            {"smallest reaction", f.unit, in_window(f.window.least)},
+            {"largest reaction", f.unit, in_window(f.window.largest)},
+            {"mean reaction", f.unit, in_window(f.window.mean)}};
+  }
+
+  std::vector<Statistics::Figure> Statistics::figures_of(const SpannedWire &wire,
+                                                         const Span &span) const
+  {
+    double n_slackenings = 0.;
+    for (const LinkQuantities &link : links)
+      if (std::count(span.droppers.begin(), span.droppers.end(), link.name) > 0)
+        n_slackenings += link.dropper.n_slackenings;
+    std::vector<Figure> list = {{"sag", "m", span.sag}, {"slackenings", "1", n_slackenings}};
+    for (const Contact &contact : contacts)
+      if (contact.wire == wire.wire)
+      {
+        const SpanForce f = SpanForce::of(span, judged(contact), parameters);
+        const Moments &m = f.moments;
+        for (const auto &[name, value] :
+             {std::pair("mean", m.mean), std::pair("standard deviation", m.deviation),
+              std::pair("maximum", m.maximum), std::pair("minimum", m.minimum)})
+          list.push_back(
+              {to_text(name, " of ", contact.of.name), "N", f.n_samples > 0 ? value : not_known});
+      }
     return list;
   }
 
@@ -313,34 +370,41 @@ namespace taut
             {"last", probe.unit, probe.last}};
   }
 
+  std::vector<Statistics::Item> Statistics::items() const
+  {
+    std::vector<Item> list;
+    for (const Contact &contact : contacts)
+    {
+      const std::string &name = contact.of.name;
+      list.push_back({{"sliding_contacts", name}, figures_of(measure(contact), false), true});
+      list.push_back({{"sliding_contacts", name}, details_of(contact)});
+      for (std::size_t i = 0; contact.of.is_strip && i < contact.wires.size(); ++i)
+        list.push_back({{"sliding_contacts", name, "wires", contact.of.names[i]},
+                        figures_of_share(measure(contact, contact.wires[i]))});
+    }
+    for (const LineConstants &line : lines)
+      list.push_back({{"line_constants", line.contact}, figures_of(line)});
+    for (const ContactSum &sum : sums)
+      list.push_back({{"sums", sum.name}, figures_of(measure(sum), false), true});
+    for (const ProbeQuantities &probe : probes)
+      list.push_back({{"probes", probe.name}, figures_of(probe)});
+    for (const LinkQuantities &link : links)
+      list.push_back({{"links", link.name}, figures_of(link)});
+    for (const SupportFigures::Figures &support : supports.of_supports())
+      list.push_back({{"supports", support.name}, figures_of(support)});
+    for (const SpannedWire &wire : spanned)
+      for (const Span &span : wire.spans)
+        list.push_back({{"spans", span.name}, figures_of(wire, span)});
+    return list;
+  }
+
   std::vector<NamedQuantity> Statistics::named_quantities() const
   {
     std::vector<NamedQuantity> list;
-    const auto add = [&](const std::string &item, const std::vector<Figure> &figures)
-    {
-      for (const Figure &figure : figures)
-        list.push_back(
-            {item, figure.name, figure.value, figure.unit == "share" ? "1" : figure.unit});
-    };
-    for (const Contact &contact : contacts)
-    {
-      add(contact.of.name, figures_of(measure(contact), false));
-      add(contact.of.name, named_figures(contact));
-      for (std::size_t i = 0; contact.of.is_strip && i < contact.wires.size(); ++i)
-      {
-        const Moments share = measure(contact, contact.wires[i]).raw;
-        add(contact.of.names[i],
-            {{"mean share", "N", share.mean}, {"largest share", "N", share.maximum}});
-      }
-    }
-    for (const ContactSum &sum : sums)
-      add(sum.name, figures_of(measure(sum), false));
-    for (const LinkQuantities &link : links)
-      add(link.name, figures_of(link));
-    for (const ProbeQuantities &probe : probes)
-      add(probe.name, figures_of(probe));
-    const std::vector<NamedQuantity> reactions = supports.named();
-    list.insert(list.end(), reactions.begin(), reactions.end());
+    for (const Item &item : items())
+      for (const Figure &figure : item.figures)
+        list.push_back({item.path.back(), figure.name, figure.value,
+                        figure.unit == "share" ? "1" : figure.unit});
     return list;
   }
 } // namespace taut

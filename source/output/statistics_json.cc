@@ -7,11 +7,11 @@
 #include <taut/output/statistics.h>
 #include <taut/output/table_file.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cctype>
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace taut
 {
@@ -19,16 +19,13 @@ namespace taut
   {
     using json = nlohmann::ordered_json;
 
-    /// "mean_plus_3_standard_deviations" for "Mean + 3 standard deviations".
-    std::string identifier(const std::string &name)
+    /// "mean_plus_3_standard_deviations" for "mean + 3 standard deviations".
+    std::string identifier(std::string name)
     {
-      std::string key;
-      for (const char c : name)
-        key += c == '+'   ? std::string("plus")
-               : c == '-' ? std::string("minus")
-               : c == ' ' ? std::string("_")
-                          : std::string(1, std::tolower(static_cast<unsigned char>(c)));
-      return key;
+      boost::replace_all(name, "+", "plus");
+      boost::replace_all(name, " - ", " minus ");
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
     }
 
     json quantity(const double value, const std::string &unit)
@@ -65,9 +62,6 @@ namespace taut
       add_force(all.figures_of(f, true), f.are_judged(), f.is_filtered, entry);
       if (const std::string source = all.parameters.source_of_largest_mean(); !source.empty())
         entry["largest_mean_force"] = {{"supply", all.parameters.supply}, {"source", source}};
-      add_figures(all.figures(contact), entry);
-      if (contact.of.is_strip)
-        entry["wires"] = shares(all, contact);
       return entry;
     }
 
@@ -77,7 +71,7 @@ namespace taut
       json result = json::object();
       for (const Figure &figure : figures)
       {
-        if (raw && std::isnan(figure.raw))
+        if (std::isnan(raw ? figure.raw : figure.value))
           continue;
         json &entry = result[identifier(figure.name)] =
             quantity(raw ? figure.raw : figure.shown(), figure.unit_shown());
@@ -109,108 +103,6 @@ namespace taut
         return entry;
       add_force(all.figures_of(f, false), f.is_filtered, true, entry);
       return entry;
-    }
-
-    static void add_figures(const ContactFigures &f, json &entry)
-    {
-      json &bands = entry["bands"] = json::array();
-      for (const ContactFigures::Band &band : f.bands)
-      {
-        bands.push_back({{"from", band.from}, {"to", band.to}, {"unit", "Hz"}});
-        if (band.is_resolved)
-          bands.back()["standard_deviation"] = quantity(band.deviation, "N");
-      }
-      json &losses = entry["losses"] = json::array();
-      for (const ContactFigures::Losses &l : f.losses)
-        losses.push_back({{"longer_than", quantity(1e3 * l.longer_than, "ms")},
-                          {"number", l.number},
-                          {"share", quantity(100. * l.share, "%")}});
-      entry["height_range"] = quantity(1e3 * f.height_range, "mm");
-    }
-
-    static json of(const LineConstants &line)
-    {
-      json entry = {{"wire", line.wire},
-                    {"speed", quantity(line.speed, "m/s")},
-                    {"wave_speed", quantity(line.wave_speed, "m/s")},
-                    {"speed_over_wave_speed", quantity(line.speed / line.wave_speed, "1")},
-                    {"doppler_factor", quantity(line.doppler, "1")}};
-      if (line.reflection > 0.)
-      {
-        entry["reflection_at_droppers"] = quantity(line.reflection, "1");
-        entry["amplification"] = quantity(line.amplification, "1");
-      }
-      return entry;
-    }
-
-    static json of(const SupportFigures::Figures &f)
-    {
-      json entry = {{"wire", f.wire},
-                    {"position", quantity(f.position, "m")},
-                    {"at_start", quantity(f.at_start, f.unit)}};
-      if (f.n_samples > 0)
-      {
-        entry["mean"] = quantity(f.window.mean, f.unit);
-        entry["maximum"] = quantity(f.window.largest, f.unit);
-        entry["minimum"] = quantity(f.window.least, f.unit);
-      }
-      return entry;
-    }
-
-    /// By wire.
-    static json of_spans(const Statistics &all)
-    {
-      std::map<std::string, std::size_t> n_slackenings;
-      for (const LinkQuantities &link : all.links)
-        n_slackenings[link.name] = link.dropper.n_slackenings;
-      json result = json::object();
-      for (const SpannedWire &wire : all.spanned)
-      {
-        json &entries = result[wire.name] = json::array();
-        for (const Span &span : wire.spans)
-        {
-          std::size_t n = 0;
-          for (const std::string &dropper : span.droppers)
-            n += n_slackenings[dropper];
-          entries.push_back({{"from", quantity(span.from, "m")},
-                             {"to", quantity(span.to, "m")},
-                             {"sag", quantity(1e3 * span.sag, "mm")},
-                             {"slackenings", n}});
-        }
-        for (const Contact &contact : all.contacts)
-          if (contact.wire == wire.wire)
-            add_forces(all, contact, wire.spans, entries);
-      }
-      return result;
-    }
-
-    static void add_forces(const Statistics &all, const Contact &contact,
-                           const std::vector<Span> &spans, json &entries)
-    {
-      const ContactRecord record = all.judged(contact);
-      for (std::size_t i = 0; i < spans.size(); ++i)
-      {
-        const SpanForce f = SpanForce::of(spans[i], record, all.parameters);
-        if (f.n_samples > 0)
-          entries[i]["contact_forces"][contact.of.name] = {
-              {"samples", f.n_samples},
-              {"mean", quantity(f.moments.mean, "N")},
-              {"standard_deviation", quantity(f.moments.deviation, "N")},
-              {"maximum", quantity(f.moments.maximum, "N")},
-              {"minimum", quantity(f.moments.minimum, "N")}};
-      }
-    }
-
-    static json shares(const Statistics &all, const Contact &contact)
-    {
-      json result = json::object();
-      for (std::size_t i = 0; i < contact.wires.size(); ++i)
-      {
-        const ContactQuantities f = all.measure(contact, contact.wires[i]);
-        json &entry = result[contact.of.names[i]] = of(all.figures_of(f, false), false, true);
-        entry["not_touched"] = quantity(100. * f.loss, "%");
-      }
-      return result;
     }
 
     static json of_certificates(const Statistics &all)
@@ -253,25 +145,30 @@ namespace taut
         {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
         {"scheme", run.scheme},      {"step", time(run.step)},     {"end", time(run.end)},
         {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
-    json &of_lines = root["line_constants"] = json::object();
-    for (const LineConstants &line : lines)
-      of_lines[line.contact] = Json::of(line);
-    json &of_contacts = root["sliding_contacts"] = json::object();
+    for (const char *const section :
+         {"line_constants", "sliding_contacts", "sums", "probes", "links", "supports", "spans"})
+      root[section] = json::object();
     for (const Contact &contact : contacts)
-      of_contacts[contact.of.name] = Json::of(*this, contact);
-    json &of_sums = root["sums"] = json::object();
+      root["sliding_contacts"][contact.of.name] = Json::of(*this, contact);
     for (const ContactSum &sum : sums)
-      of_sums[sum.name] = Json::of(*this, sum);
-    json &of_probes = root["probes"] = json::object();
-    for (const ProbeQuantities &probe : probes)
-      of_probes[probe.name] = Json::of(figures_of(probe), true);
-    json &of_links = root["links"] = json::object();
-    for (const LinkQuantities &link : links)
-      of_links[link.name] = Json::of(figures_of(link), false);
-    json &of_supports = root["supports"] = json::object();
-    for (const SupportFigures::Figures &support : supports.of_supports())
-      of_supports[support.name] = Json::of(support);
-    root["spans"] = Json::of_spans(*this);
+      root["sums"][sum.name] = Json::of(*this, sum);
+    for (const LineConstants &line : lines)
+      root["line_constants"][line.contact]["wire"] = line.wire;
+    for (const SupportFigures::Figures &f : supports.of_supports())
+      root["supports"][f.name] = {{"wire", f.wire}, {"position", quantity(f.position, "m")}};
+    for (const SpannedWire &wire : spanned)
+      for (const Span &span : wire.spans)
+        root["spans"][span.name] = {{"wire", wire.name},
+                                    {"from", quantity(span.from, "m")},
+                                    {"to", quantity(span.to, "m")}};
+    for (const Item &item : items())
+      if (!item.is_force) // which is above, with its ranges
+      {
+        json *entry = &root;
+        for (const std::string &key : item.path)
+          entry = &(*entry)[key];
+        entry->update(Json::of(item.figures, true));
+      }
     for (const NamedQuantity &q : others)
       root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);
     root["certificate"] = Json::of_certificates(*this);

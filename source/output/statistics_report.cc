@@ -137,7 +137,9 @@ namespace taut
   {
     for (const Figure &row : rows)
     {
-      const double own_size = row.unit == "N" ? size : 1.;
+      if (std::isnan(row.value) || (row.value == 0. && !row.shown_if_zero))
+        continue;
+      const double own_size = row.unit == "N" ? size : row.unit == "m" ? row.shown() : 1.;
       out << "  " << std::left << std::setw(36) << capitalised(row.name) << std::right
           << std::setw(10) << shown(row.shown(), own_size) << ' ' << std::left << std::setw(3)
           << (row.unit == "1" ? "" : row.unit_shown()) << std::right << std::setw(12)
@@ -155,33 +157,9 @@ namespace taut
     print_rows(figures_of(f, true), size_of(f), f.are_judged(), out);
     if (const std::string source = parameters.source_of_largest_mean(); !source.empty())
       out << "  Largest mean at this speed, " << parameters.supply << ": " << source << '\n';
-    print_figures(contact, f, out);
+    print_rows(details_of(contact), size_of(f), false, out);
     if (contact.of.is_strip)
       print_shares(contact, size_of(f), out);
-  }
-
-  void Statistics::print_figures(const Contact &contact, const ContactQuantities &of,
-                                 std::ostream &out) const
-  {
-    const ContactFigures f = figures(contact);
-    const auto begin = [&](const std::string &text) -> std::ostream &
-    { return out << "  " << std::left << std::setw(36) << text << std::right; };
-    begin("Standard deviation at 0-2, 0-5, 5-20 Hz");
-    for (std::size_t i = 0; i < 3; ++i)
-      out << (f.bands[i].is_resolved ? ' ' + shown(f.bands[i].deviation, size_of(of)) : " -");
-    out << " N\n";
-    if (contact.has_height)
-      begin("Range of the height of the contact")
-          << std::setw(10) << shown(1e3 * f.height_range, 1e3 * f.height_range) << " mm\n";
-    if (!(of.loss > 0.))
-      return;
-    begin("Losses longer than 5, 10, 20 ms");
-    for (const ContactFigures::Losses &l : f.losses)
-      out << ' ' << l.number;
-    out << ", for";
-    for (const ContactFigures::Losses &l : f.losses)
-      out << ' ' << fixed(100. * l.share);
-    out << " %, for the time of arcs\n";
   }
 
   void Statistics::print_shares(const Contact &contact, const double size, std::ostream &out) const

@@ -4,7 +4,6 @@
 #include <taut/output/support_figures.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace taut
 {
@@ -30,21 +29,6 @@ namespace taut
       if (dt > 0.)
         f.window.add(reactions[i], dt);
     }
-  }
-
-  std::vector<NamedQuantity> SupportFigures::named() const
-  {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    std::vector<NamedQuantity> list;
-    for (const Figures &f : figures)
-    {
-      const auto in_window = [&](const double value) { return f.n_samples > 0 ? value : none; };
-      list.insert(list.end(), {{f.name, "reaction at the start", f.at_start, f.unit},
-                               {f.name, "smallest reaction", in_window(f.window.least), f.unit},
-                               {f.name, "largest reaction", in_window(f.window.largest), f.unit},
-                               {f.name, "mean reaction", in_window(f.window.mean), f.unit}});
-    }
-    return list;
   }
 
   void LinkForce::start(const double force)

@@ -40,9 +40,12 @@ def check_line():
         said = [of["filtered"][key]["value"] for key in ("mean", "standard_deviation", "maximum", "minimum")]
         close(f"figures of {name}", [pick(strip.evaluated) for pick in (np.mean, np.std, np.max, np.min)], said, 1e-4)
         spectrum = power_spectrum(strip.force, strip.step)
-        close(f"bands of {name}", [deviation_in(*spectrum, band["from"], band["to"]) for band in of["bands"]],
-              [band["standard_deviation"]["value"] for band in of["bands"]], 1e-4)
-    for wire, spans in results.statistics["spans"].items():
+        bands = [(0, 2), (0, 5), (5, 20), (0, 20)]
+        close(f"bands of {name}", [deviation_in(*spectrum, low, high) for low, high in bands],
+              [of[f"standard_deviation_{low}_to_{high}_Hz"]["value"] for low, high in bands], 1e-4)
+    all_spans = results.statistics["spans"].values()
+    for wire in {span["wire"] for span in all_spans}:
+        spans = [span for span in all_spans if span["wire"] == wire]
         begin = 496 if wire.endswith("2") else 0
         close(f"masts of {wire}", results.masts(wire), [begin, *(begin + span["to"]["value"] for span in spans)])
 

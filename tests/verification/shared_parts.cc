@@ -24,6 +24,9 @@ namespace
                                "Time/Step=2e-3",
                                "Time/End=0.12"};
 
+  /// In the place of not-a-number, which is not equal to itself.
+  constexpr double not_known = 1e300;
+
   /// Everything that a case gave, number for number; the message if it failed.
   std::pair<std::vector<double>, std::string> numbers(taut::CaseRunner &runner,
                                                       const Overrides &entries)
@@ -34,7 +37,7 @@ namespace
         {
           const taut::CaseResult result = runner.run(entries);
           for (const auto &quantity : result.quantities)
-            values.push_back(quantity.value);
+            values.push_back(std::isnan(quantity.value) ? not_known : quantity.value);
           values.insert(values.end(), {result.worst.complementarity, result.worst.balance});
         });
     return {values, message};

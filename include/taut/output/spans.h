@@ -18,6 +18,7 @@ namespace taut
   /// A part of a wire between two masts.
   struct Span
   {
+    std::string name;                       ///< "WIRE span NUMBER", from 1 on
     double from = 0., to = 0.;              ///< s on the wire [m]
     double sag = 0.;                        ///< at rest [m], see find_sags()
     std::vector<std::string> droppers = {}; ///< that hold this part of the wire, from `from` on

@@ -123,7 +123,6 @@ namespace taut
     void store(Archive &archive);
     void record_contacts(const StepView &step);
     static double height_of(Contact &contact, const StepView &step);
-    ContactFigures figures(const Contact &contact) const;
     static void add_places(const Contact &contact, ContactRecord &record);
     ContactRecord sum(const Contact &contact) const;
     ContactRecord judged(const Contact &contact) const;
@@ -134,10 +133,11 @@ namespace taut
     /// A figure of an item: one entry for log, file, studies and sweeps.
     struct Figure
     {
-      std::string name, unit; ///< SI, or "share"
-      double value;
+      std::string name, unit;                                ///< SI, or "share"
+      double value;                                          ///< not a number: there is none
       double raw = std::numeric_limits<double>::quiet_NaN(); ///< of the unfiltered force
       std::vector<double> expected = {};                     ///< range in unit_shown(); empty: none
+      bool shown_if_zero = true;                             ///< in the log
 
       /// In log and file displacements are in mm and mrad, shares in %.
       double factor() const
@@ -151,13 +151,31 @@ namespace taut
       double shown() const { return factor() * value; }
     };
 
+    /// What has figures: a contact, sum, wire of a strip, probe, link, support or span.
+    struct Item
+    {
+      std::vector<std::string> path; ///< keys in the file; the last one is the name of the item
+      std::vector<Figure> figures;
+      bool is_force = false; ///< of a contact or a sum, raw and filtered
+    };
+
+    /// All items, always the same ones with the same figures. What has a new figure says it in its
+    /// figures_of(), which log, file, studies and sweeps print.
+    std::vector<Item> items() const;
+
     /// Of a contact force or a sum, with expected ranges if @p compared.
     std::vector<Figure> figures_of(const ContactQuantities &force, bool compared) const;
     std::vector<Figure> figures_of(const ProbeQuantities &probe) const;
     static std::vector<Figure> figures_of(const LinkQuantities &link);
+    static std::vector<Figure> figures_of(const SupportFigures::Figures &support);
+    static std::vector<Figure> figures_of(const LineConstants &line);
+    static std::vector<Figure> figures_of_share(const ContactQuantities &share);
 
     /// Bands of frequency, losses by duration and the height of a contact.
-    std::vector<Figure> named_figures(const Contact &contact) const;
+    std::vector<Figure> details_of(const Contact &contact) const;
+
+    /// Sag, slackenings of the droppers that hold it, and forces of the contacts on its wire.
+    std::vector<Figure> figures_of(const SpannedWire &wire, const Span &span) const;
 
     std::vector<double> expected_range(const std::string &quantity) const;
 
@@ -176,8 +194,6 @@ namespace taut
     static void print_rows(const std::vector<Figure> &rows, double size, bool judged,
                            std::ostream &out);
     void print_contact(const Contact &contact, std::ostream &out) const;
-    void print_figures(const Contact &contact, const ContactQuantities &of,
-                       std::ostream &out) const;
     void print_shares(const Contact &contact, double size, std::ostream &out) const;
     void print_sum(const ContactSum &sum, std::ostream &out) const;
     void print_links(std::ostream &out) const;

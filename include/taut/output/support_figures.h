@@ -63,10 +63,6 @@ namespace taut
 
     const std::vector<Figures> &of_supports() const { return figures; }
 
-    /// "reaction at the start", "smallest reaction", "largest reaction" and "mean reaction" of each
-    /// support; without a step in the window all but the first are not a number.
-    std::vector<NamedQuantity> named() const;
-
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
