@@ -75,9 +75,9 @@ namespace taut
     double interval = 0., next = 0., start_energy = 0.;
     Balance total;
 
-    std::vector<double> reference_energy; ///< strain energy of each body of this rank [J]
-    BodyVectors P, CV, balance, impulses; ///< of the last call
-    BodyVectors P0, CV0, balance0, A0;    ///< of the call before
+    std::vector<double> reference_energy;  ///< strain energy of each body of this rank [J]
+    BodyVectors CV, balance, impulses;     ///< of the last call
+    BodyVectors loads0, CV0, balance0, A0; ///< of the call before
     std::vector<double> N0, gap0;
     std::vector<State::Spring> springs0;
     std::vector<std::vector<Term>> terms0; ///< of varying constraints
@@ -120,7 +120,7 @@ namespace taut
     archive >> next >> start_energy >> total >> length;
     if (file)
       file->resume(length);
-    P = CV = balance = impulses = step.structure.zero();
+    CV = balance = impulses = step.structure.zero();
     set_forces(step);
     keep(step);
     has_begun = true;
@@ -128,7 +128,7 @@ namespace taut
 
   void Energy::begin_balance(const StepView &start)
   {
-    P = CV = balance = impulses = start.structure.zero();
+    CV = balance = impulses = start.structure.zero();
     set_forces(start);
     Balance share;
     add_bodies(start, share);
@@ -144,7 +144,7 @@ namespace taut
     write(start.state.time);
   }
 
-  /// Sets external forces, C V, P + B N - C V - K U and impulses of the present state.
+  /// Sets C V, P + B N - C V - K U and impulses of the present state.
   void Energy::set_forces(const StepView &step)
   {
     const State &state = step.state;
@@ -156,14 +156,13 @@ namespace taut
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
       const Substructure &body = step.structure[k];
-      body.external_force(state.time, P[k]);
       CV[k].assign(body.n_dofs(), 0.);
       impulses[k].assign(body.n_dofs(), 0.);
       product = state.V[k];
       set_prescribed_velocities(step, k, product);
       body.damping().vmult_add(1., product.data(), CV[k].data());
-      for (std::size_t i = 0; i < P[k].size(); ++i)
-        balance[k][i] = P[k][i] - CV[k][i] - step.reference.force[k][i] - state.KU[k][i];
+      for (std::size_t i = 0; i < CV[k].size(); ++i)
+        balance[k][i] = step.loads[k][i] - CV[k][i] - state.KU[k][i];
     }
     step.constraints.add_forces(in_balance, balance);
     step.constraints.add_forces(impulsive, impulses);
@@ -203,7 +202,7 @@ namespace taut
       }
       else
         share.strain += body.strain_energy(U);
-      if (!P0.empty())
+      if (!loads0.empty())
         add_work(step, k, share);
     }
   }
@@ -242,7 +241,7 @@ namespace taut
     }
     for (std::size_t i = 0; i < n; ++i)
     {
-      share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];
+      share.loads += (step.reference.force[k][i] + .5 * (loads0[k][i] + step.loads[k][i])) * dU[i];
       share.damping += .5 * (CV0[k][i] + damping[i]) * dU[i];
       share.algorithmic +=
           dU[i] * (product[i] - (.5 - c.alpha_f) * (balance[k][i] - balance0[k][i]));
@@ -321,11 +320,11 @@ namespace taut
   void Energy::keep(const StepView &step)
   {
     const State &state = step.state;
-    std::swap(P, P0);
     std::swap(CV, CV0);
     std::swap(balance, balance0);
-    if (P.empty())
-      P = CV = balance = step.structure.zero();
+    if (CV.empty())
+      CV = balance = step.structure.zero();
+    loads0 = step.loads;
     A0 = state.A;
     N0 = state.multiplier;
     gap0 = state.complementarity_gap;

@@ -170,6 +170,7 @@ namespace taut
             motion.reference(),
             state,
             motion.residuals(),
+            motion.loads(),
             motion.report(),
             motion.measures(),
             probe_values,

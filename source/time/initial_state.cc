@@ -207,7 +207,7 @@ namespace taut
     constraints.update(0.);
     InitialState result;
     State &state = result.state = state_at_rest(structure, constraints.size());
-    result.reference.displacement = result.reference.force = structure.zero();
+    result.reference.displacement = result.reference.force = result.loads = structure.zero();
     if (start == Start::equilibrium)
     {
       StaticState rest = static_equilibrium(structure, constraints, parameters, 0.);
@@ -238,6 +238,9 @@ namespace taut
             // A body may have prestress as constructed.
             structure[k].internal_force(result.reference.displacement[k], {},
                                         result.reference.force[k]);
+            structure[k].external_force(0., result.loads[k]);
+            for (std::size_t i = 0; i < result.loads[k].size(); ++i)
+              result.loads[k][i] -= result.reference.force[k][i];
             if (start != Start::equilibrium)
             {
               for (const ConstrainedDof &constraint : structure[k].constraints())

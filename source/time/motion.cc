@@ -156,6 +156,11 @@ namespace taut
     return parts ? parts->step.report() : no_report;
   }
 
+  const BodyVectors &Motion::loads() const
+  {
+    return parts ? parts->step.history().forces().P : initial.loads;
+  }
+
   bool Motion::has_moved() const
   {
     return parts && parts->n_steps > 0;
@@ -309,7 +314,7 @@ namespace taut
   {
     parts->control.advance(*this);
     costs().lap(StepPart::control);
-    energy.record(state(), report(), parts->step.history().forces().P);
+    energy.record(state(), report(), loads());
     contact_measures.record(state(), report());
     costs().lap(StepPart::measures);
   }
@@ -599,6 +604,8 @@ namespace taut
     archive >> largest_rates;
     constraints.update(parts->state.time);
     parts->nonlinear.follow(parts->state);
+    structure.communicator().agree(
+        [&] { parts->step.history().set_external_forces(parts->state.time); });
     reset_caches(largest_rates);
     energy.load(archive);
     contact_measures.load(archive);

@@ -43,6 +43,9 @@ namespace taut
     const State &state;
     const Residuals &residuals;
 
+    /// External forces of the bodies at its end, minus those of the reference [N, N m].
+    const BodyVectors &loads;
+
     /// What the step tells, and measures of the contacts until its end.
     const StepReport &report;
     const ContactMeasures &measures;

@@ -17,6 +17,7 @@ namespace taut
   {
     Reference reference;
     State state;
+    BodyVectors loads; ///< external forces minus those of the reference [N, N m]
     Residuals residuals;
     std::vector<char> linearised; ///< for each body of all ranks: was linearised here
     std::size_t n_kept = 0;       ///< turning constraints that keep their direction from here on

@@ -114,6 +114,10 @@ namespace taut
 
     /// What the last step tells; empty before the first step.
     const StepReport &report() const;
+
+    /// External forces of the bodies of this rank at the present time, minus those of the
+    /// reference [N, N m].
+    const BodyVectors &loads() const;
     bool has_moved() const;
 
     /// Measures of the contacts so far.
