@@ -9,21 +9,25 @@ namespace taut
 {
   namespace
   {
-    /// Relative residual of a law, in terms of its gap, that ends the iteration. Rounding may keep
-    /// it between both; the residuals of the step then shows it.
+    /// Relative residual of a law, in terms of its gap, that ends the iteration: a hundred
+    /// roundings, and the default Contact tolerance. Rounding may keep it between both; the
+    /// residuals of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
     constexpr int most_linearisations = 200;
 
     /// Part of the last residual above which the next one is rounding.
     constexpr double not_closer = .9;
 
-    /// Lower bound of the slope of a law in its linearisation, over its largest stiffness.
+    /// Lower bound of the slope of a law in its linearisation, over its largest stiffness k. The
+    /// rounding of a force N then moves a gap by at most 1e-16 / 1e-9 of N / k.
     constexpr double least_slope = 1e-9;
 
     /// Bound for a conserving law, whose slope between far open and closed is small, but right.
     constexpr double least_slope_of_conserving = 1e-40;
 
-    /// Relative difference of compressions below which it gives no slope of the mean.
+    /// Relative difference of compressions below which it gives no slope of the mean. Only the
+    /// speed of the iteration depends on it: the quotient of this difference is off by 1e-16 /
+    /// 1e-5, and the slope in its place by a part of about 1e-5.
     constexpr double least_difference = 1e-5;
 
     /// The compression @p u, or where the force is zero if it pulls at @p u. This place is searched
@@ -154,6 +158,11 @@ namespace taut
     result.clear();
     for (const Row &row : rows)
       result.push_back(without_pull(row, -gap[row.index]));
+  }
+
+  double ConstraintLaws::relaxed(const std::size_t i, const double u) const
+  {
+    return without_pull(rows[row_of[i]], u);
   }
 
   double ConstraintLaws::polished(const std::size_t i, const double u, const double L) const

@@ -62,6 +62,10 @@ namespace taut
     /// (L - phi(u)) / phi'(u). 0 for a constraint without a law.
     double lack(std::size_t i, double u, double L) const;
 
+    /// Compression at the end of a step without force, where the ends are @p u apart: a damper lets
+    /// the spring come back no faster than its force does.
+    double relaxed(std::size_t i, double u) const;
+
     /// phi^-1(L) near @p u, as exact as L: @p u may be the small difference of large motions.
     double polished(std::size_t i, double u, double L) const;
 

@@ -237,6 +237,44 @@ Time: Step = 0.0014; End = 0.28
   EXPECT_GT(-deepest, .7e-3);
 }
 
+// The spring of a contact that has opened comes back with c u' = -f(u), while its mass flies on.
+TEST(ResolvedContacts, a_spring_with_a_law_and_a_damper_comes_back_slowly)
+{
+  const auto force = [](const double u) { return 137. * u + 569000. * u * u * u; };
+  constexpr double damping = 26.;
+  double time = 0., opened = -1., u = 0., exact = 0.;
+  bool was_closed = false;
+  run_scene(R"(Gravity = 0, 0; Start = given
+Mass m: Motions = y; Mass = 0.54; Initial velocity = 0, -0.3, 0
+Link floor: Type = stop; From = ground; To = m; Direction = 0, 1; Gap = 0.005; Law = formula;
+  Law formula = 137*d + 569000*d^3; Law range = 0.155; Damping = 26
+Time: Step = 5e-4; End = 0.3
+)",
+            {},
+            [&](const taut::StepView &view)
+            {
+              u = view.state.springs[0].u;
+              const bool is_closed = view.state.multiplier[0] > 0.;
+              if (was_closed && !is_closed)
+              {
+                opened = view.state.time;
+                exact = u;
+              }
+              else if (opened > 0.)
+              {
+                const double dt = view.state.time - time,
+                             middle = exact - .5 * dt * force(exact) / damping;
+                exact -= dt * force(middle) / damping;
+              }
+              was_closed = is_closed;
+              time = view.state.time;
+            });
+  EXPECT_GT(opened, 0.);
+  EXPECT_LT(opened, .2);
+  EXPECT_GT(figure("spring that comes back, compression at the end", u, "m"), 5e-4);
+  EXPECT_NEAR(u, exact, .01 * exact);
+}
+
 // A beam of ten metres falls flat on 41 stops; most of its mass stands above one.
 TEST(ResolvedContacts, a_beam_that_falls_flat_keeps_its_energy)
 {
