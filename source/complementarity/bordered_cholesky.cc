@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "complementarity/bordered_cholesky.h"
 #include "base/instruction_set.h"
+#include "base/pivots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +10,6 @@ namespace taut
 {
   namespace
   {
-    /// Smallest pivot of an independent row, relative to its diagonal entry: rounding leaves about
-    /// n 1e-16.
-    constexpr double smallest_pivot = 1e-12;
-
     /// Eight partial sums: one alone would wait for the latency of each addition.
     double dot(const double *a, const double *b, std::size_t n)
     {
@@ -101,7 +98,7 @@ namespace taut
     }
     const double diagonal = matrix[row * n + row] * (1. + shift);
     const double pivot = diagonal - dot(entries + begin, entries + begin, position - begin);
-    if (!(pivot > smallest_pivot * diagonal))
+    if (!(pivot > dependent_pivot * diagonal))
       return false;
     inverse_pivots[position] = 1. / std::sqrt(pivot);
     return true;

@@ -10,10 +10,13 @@ namespace taut
 {
   namespace
   {
-    /// Entries of a null direction below this, relative to the largest, are zeros.
+    /// Entries of a null direction below this, relative to the largest, are zeros. They are
+    /// compared by the root of their energies F_ii z_i^2: 1e-14 of the largest energy, a hundred
+    /// roundings.
     constexpr double smallest_null_entry = 1e-7;
 
-    /// A multiplier below this, relative to the largest terms, may be rounding.
+    /// A multiplier below this, relative to the largest terms, may be rounding: a hundred
+    /// roundings. It becomes zero only if no row gets worse.
     constexpr double smallest_multiplier = 1e-14;
   } // namespace
 

@@ -16,11 +16,12 @@ namespace taut
     /// Largest number of updates of alpha; some five are enough for bodies that are held well.
     constexpr unsigned int max_updates = 60;
 
-    /// Balance below which alpha is no longer updated.
+    /// Balance below which alpha is no longer updated: a hundred roundings, the end of five
+    /// updates.
     constexpr double balanced = 1e-14;
 
     /// Unbalanced part of a load above which nothing can balance the load: a descent finds zero as
-    /// the root of its rounding.
+    /// the root of its rounding, 1e-8.
     constexpr double not_held = 1e-7;
 
     void add(std::vector<double> &y, double factor, const std::vector<double> &x)

@@ -9,7 +9,8 @@ namespace taut
 {
   namespace
   {
-    /// A diagonal entry of F of a pseudo-inverse below this, relative to the mean, is rounding.
+    /// A diagonal entry of F of a pseudo-inverse below this, relative to the mean, is rounding. It
+    /// bounds the weights by 1e6 over the mean.
     constexpr double smallest_diagonal = 1e-6;
 
     /// W_i.

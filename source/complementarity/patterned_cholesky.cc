@@ -3,6 +3,7 @@
 // the contact problem of a line with 260 rows takes 1.9 times as many instructions.
 
 #include "complementarity/patterned_cholesky.h"
+#include "base/pivots.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,8 +12,6 @@ namespace taut
 {
   namespace
   {
-    /// Smallest pivot of an independent row, relative to its diagonal entry.
-    constexpr double smallest_pivot = 1e-12;
   } // namespace
 
   EliminationPattern::EliminationPattern(const SparseTriangle &matrix)
@@ -188,7 +187,7 @@ namespace taut
       for (std::size_t e = p.column_begin[entry->column]; e < entry->index; ++e)
         work[p.row[e]] -= lower[e] * from;
     }
-    if (!(pivot > smallest_pivot * diagonal))
+    if (!(pivot > dependent_pivot * diagonal))
       return false;
     inverse[k] = 1. / pivot;
     return true;

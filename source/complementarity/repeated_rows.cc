@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "complementarity/repeated_rows.h"
+#include "base/pivots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +14,12 @@ namespace taut
     /// dependent rows are 1e-12, and their square roots enter.
     constexpr double no_part = 1e-5;
 
-    /// Pivots over the diagonal entry: of rows that depend on others to rounding, and of rows that
-    /// do not, to half of the digits. With a pivot between the two nothing is said to repeat.
-    constexpr double dependent = 1e-12, distinct = 1e-8;
+    /// Pivots over the diagonal entry of rows that do not depend on others, to half of the digits.
+    /// With one between it and dependent_pivot nothing is said to repeat.
+    constexpr double distinct = 1e-8;
 
-    /// Part of its terms up to which F z is that of a search which is about to end.
+    /// Part of its terms up to which F z is that of a search which is about to end: the largest
+    /// error with which Newton's method of a step may end.
     constexpr double nearly_exact = 1e-5;
 
     /// Most bilateral rows for a dense factor, which takes a second for them: the many rows between
@@ -52,7 +54,7 @@ namespace taut
       for (std::size_t q = 0; q < n; ++q)
         if (is_left[q] && (p == n || left[q] > left[p]))
           p = q;
-      if (!(left[p] > dependent))
+      if (!(left[p] > dependent_pivot))
         break;
       pivot = left[p];
       is_left[p] = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "complementarity/sparse_operator.h"
+#include "base/pivots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@ namespace taut
 {
   namespace
   {
-    /// Smallest pivot of an independent row, relative to its diagonal entry.
-    constexpr double smallest_pivot = 1e-12;
   } // namespace
 
   void SparseOperator::reinit(const std::size_t n_rows, const std::size_t n_border)
@@ -186,7 +185,7 @@ namespace taut
     {
       if (!used.is_current[b])
         respond(used, b);
-      if (!(used.schur.diagonal(b) > smallest_pivot * diagonal(n_interior + b)))
+      if (!(used.schur.diagonal(b) > dependent_pivot * diagonal(n_interior + b)))
         return false;
     }
     return true;

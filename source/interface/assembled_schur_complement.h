@@ -10,7 +10,8 @@
 
 namespace taut
 {
-  /// Rows up to which a dense F is as fast as a sparse one.
+  /// Rows up to which a dense F is as fast as a sparse one: both cost the same with 91 constraints
+  /// of a line, and the sparse one 60 % with 260 on 72 bodies (doc/decomposition.md).
   constexpr std::size_t most_dense_rows = 150;
 
   /// True if no body of any rank is block-tridiagonal: columns of A_k^-1 then do not decay. Called

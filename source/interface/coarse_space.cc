@@ -2,19 +2,13 @@
 #include "interface/coarse_space.h"
 
 #include "base/gather_entries.h"
+#include "base/pivots.h"
 
 #include <map>
 #include <numeric>
 
 namespace taut
 {
-  namespace
-  {
-    /// Relative shift of E. Without it, rigid body modes of a group without active rows make E
-    /// singular and the columns of Z dependent; their part in Z E^-1 Z^T is zero.
-    constexpr double dependence_shift = 1e-12;
-  } // namespace
-
   CoarseSpace::CoarseSpace(const FactoredStructure &solvers,
                            const BodyConstraints &body_constraints)
       : solvers(solvers), body_constraints(body_constraints), responses(body_constraints.size())
@@ -114,6 +108,8 @@ namespace taut
             diagonal[k] += z * FZ.value[e];
         }
     for (std::size_t k = 0; k < n_columns; ++k)
+      // Rigid body modes of a group without active rows would make E singular and the columns of Z
+      // dependent; their part in Z E^-1 Z^T is zero.
       entries.add(k, k, diagonal[k] > 0. ? dependence_shift * diagonal[k] : 1.);
     entries.compress();
     E.factor(n_columns, entries, 0.);

@@ -11,7 +11,8 @@ namespace taut
 {
   namespace
   {
-    /// Number of cuts of a body above which flexibilities are estimated, and size of the sample.
+    /// Number of cuts of a body above which flexibilities are estimated, and size of the sample. An
+    /// exact one costs a solution; an estimate only scales the norm in which an iteration ends.
     constexpr std::size_t most_exact = 100, n_sampled_cuts = 16;
 
     /// b^T diag(A)^-1 b.

@@ -66,7 +66,8 @@ namespace taut
 
   namespace
   {
-    /// Least relative residual that ends a solve, and the excess that still counts as solved.
+    /// Least relative residual that ends a solve, a hundred roundings, and the excess that still
+    /// counts as solved: exact_part of an active set asks for 1e-3 of the gaps that it needs.
     constexpr double smallest_residual = 1e-14, accepted_excess = 1e3;
 
     /// Number of restarts of conjugate gradients from the true residual.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/natural_coarse_problem.h"
+#include "base/pivots.h"
 
 #include <utility>
 
@@ -7,9 +8,6 @@ namespace taut
 {
   namespace
   {
-    /// Least pivot of G Q^-1 G^T for independent motions, relative to its diagonal entry.
-    constexpr double smallest_pivot = 1e-12;
-
     std::vector<double> products(const std::vector<LinearForm> &forms, const std::vector<double> &x)
     {
       std::vector<double> result(forms.size());
@@ -55,7 +53,7 @@ namespace taut
             entries.add(k, other, G[k].value[e] * value);
     }
     entries.compress();
-    is_definite = squares.factor(G.size(), entries, smallest_pivot) == G.size();
+    is_definite = squares.factor(G.size(), entries, dependent_pivot) == G.size();
   }
 
   void NaturalCoarseProblem::balance(const std::vector<double> &e, std::vector<double> &x) const

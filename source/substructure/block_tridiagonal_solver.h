@@ -24,7 +24,8 @@ namespace taut
   {
     static constexpr int b = AnyBlock::n_dofs; ///< of a node
 
-    /// Relative size below which the tail of a column is left out, and for how many nodes in a row.
+    /// Relative size below which the tail of a column is left out, a hundredth of rounding, and for
+    /// how many nodes in a row: a column that oscillates is small where it changes its sign, too.
     static constexpr double negligible = 1e-18;
     static constexpr int negligible_nodes = 3;
 

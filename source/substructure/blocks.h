@@ -2,6 +2,7 @@
 #ifndef taut_blocks_h
 #define taut_blocks_h
 
+#include "base/pivots.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>
@@ -108,9 +109,6 @@ namespace taut
   /// For blocks of a whole node.
   inline constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
 
-  /// Smallest accepted ratio of a pivot to its diagonal entry before elimination.
-  constexpr double smallest_pivot = 1e-15;
-
   /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before
   /// elimination, @p dofs the DoFs of @p node that the message names.
   template <int b>
@@ -126,7 +124,7 @@ namespace taut
           sum -= L[r][k] * L[c][k];
         if (r != c)
           L[r][c] = sum / L[c][c];
-        else if (sum > smallest_pivot * original[r * b + r])
+        else if (sum > free_pivot * original[r * b + r])
           L[r][r] = std::sqrt(sum);
         else
           throw BodyNotHeld("the matrix is singular to working precision at node " +

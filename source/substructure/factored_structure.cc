@@ -32,7 +32,8 @@ namespace taut
       return held;
     }
 
-    /// Smallest singular value of independent vectors, for columns of length 1.
+    /// Smallest singular value of independent vectors, for columns of length 1: the stiffness that
+    /// holds a motion goes with the square, which is 1e-16 here.
     constexpr double independent = 1e-8;
 
     /// True if no combination of the vectors is zero, to working precision, on all of the DoFs.
@@ -81,13 +82,15 @@ namespace taut
     /// Largest part of a motion that rounding may lose.
     constexpr double largest_loss = 1e-6;
 
-    /// Largest part for a nonlinear body: the next iteration of Newton's method corrects the loss.
+    /// Largest part for a nonlinear body: the next iteration of Newton's method corrects the loss,
+    /// so that each still gains two digits.
     constexpr double largest_loss_of_iteration = 1e-2;
 
     /// Largest part for a body whose rigid body modes can be unknowns.
     constexpr double largest_loss_beside_amplitudes = 1e-8;
 
-    /// Smallest E over R^T J R for which rigid body modes are separate from elastic motions.
+    /// Smallest E over R^T J R for which rigid body modes are separate from elastic motions: E is a
+    /// difference, which has lost one bit there.
     constexpr double least_part_of_inertia = .5;
   } // namespace
 

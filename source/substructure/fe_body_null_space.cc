@@ -11,7 +11,9 @@ namespace taut
 {
   namespace
   {
-    /// A vector is a combination of others if less than this part of it remains.
+    /// A vector is a combination of others if less than this part of it remains: far above
+    /// rounding. An elastic support with less than this part of the stiffness of the body counts as
+    /// none.
     constexpr double dependent = 1e-10;
 
     using Modes = std::vector<std::vector<double>>;

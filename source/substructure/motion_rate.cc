@@ -83,8 +83,9 @@ namespace taut
   JumpOfMotion find_jump(const std::function<double(double)> &u, const double begin,
                          const double end, const double way, const double lack)
   {
-    // Part of the way that lacks on a smooth motion: less for 13 steps a period and more. Part of
-    // the lack that remains between times that are almost equal if there is a jump.
+    // Part of the way that lacks on a smooth motion: less for 13 steps a period and more, (omega
+    // step)^2 / 12. Part of the lack that remains between times that are almost equal if there is a
+    // jump. Bisections down to 1e-12 of the step.
     constexpr double conspicuous = .02, most = .5;
     constexpr int most_bisections = 40;
     if (!(std::fabs(lack) > conspicuous * std::fabs(way)))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/instruction_set.h"
+#include "base/pivots.h"
 #include <taut/base/exceptions.h>
 #include <taut/base/sparse_cholesky.h>
 #include <taut/substructure/local_solver.h>
@@ -10,9 +11,6 @@ namespace taut
 {
   namespace
   {
-    /// Over the largest pivot: a motion that nothing holds leaves the rounding of one operation.
-    constexpr double smallest_pivot = 1e-15;
-
     constexpr std::size_t lanes = SparseHalves::lanes;
 
     /// Adds the products of all vectors of @p sparse with @p lanes full vectors, whose rows are
@@ -73,7 +71,7 @@ namespace taut
       for (const unsigned int dof : constrained)
         entries.add(dof, dof, 1.);
 
-      const std::size_t bad = factors.factor(n, entries, smallest_pivot);
+      const std::size_t bad = factors.factor(n, entries, free_pivot);
       if (bad != n)
         throw BodyNotHeld("the matrix is singular to working precision at DoF " +
                           std::to_string(bad) + ": nothing holds it there");

@@ -13,7 +13,8 @@ namespace taut
     /// Part of |K||dU| and of the other terms up to which a residual is rounding.
     constexpr double rounding_of_increment = 1e-10;
 
-    /// Relative residual that stands for the rounding of a body.
+    /// Relative residual that stands for the rounding of a body: a hundredth of the default Contact
+    /// tolerance.
     constexpr double residual_of_rounding = 1e-10;
 
     /// Mean accelerations.

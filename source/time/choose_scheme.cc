@@ -26,7 +26,9 @@ namespace taut
 
   namespace
   {
-    /// Relative change of Rayleigh quotients that ends the iteration [1].
+    /// Relative change of Rayleigh quotients that ends the iteration [1]. Where the error falls
+    /// with 1 / n as below, it is then the root of 1e-5 log(N): 1.2 % of the quotient with 1e6
+    /// DoFs.
     constexpr double same_quotient = 1e-5;
     /// After n iterations from any vector of N DoFs the mean error of the quotient is at most
     /// log(N) / n, half of it for the frequency: 2 % with 1e6 DoFs.
@@ -97,7 +99,8 @@ namespace taut
 
   namespace
   {
-    /// Safety factor of the longest stable step: largest_frequency() is a lower bound.
+    /// Safety factor of the longest stable step: largest_frequency() is a lower bound, short by
+    /// about 2 % with 1e6 DoFs, see most_power_iterations.
     constexpr double surely_stable = .98;
 
     /// Not 0 for each constraint that acts on elements, and not on lumped masses alone.

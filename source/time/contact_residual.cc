@@ -10,14 +10,17 @@ namespace taut
 {
   namespace
   {
-    /// Residuals up to this bound need no second measurement.
+    /// Residuals up to this bound need no second measurement: above the rounding of normal steps,
+    /// 1e-11, and a hundredth of the default Contact tolerance.
     constexpr double conspicuous = 1e-10;
 
     /// Columns of A^-1 end where they have decayed to 1e-18. A motion below this part of the
-    /// largest one is hence not known from its own terms.
+    /// largest one is hence not known from its own terms: they would be off by more than 1e-12, to
+    /// which gaps are solved.
     constexpr double decayed = 1e-6;
 
-    /// Part of the motion of whole bodies that counts in the scale of a constraint.
+    /// Part of the motion of whole bodies that counts in the scale of a constraint. An error of
+    /// 1e-11 of that motion still exceeds the default Contact tolerance, 1e-8.
     constexpr double part_of_whole_motion = 1e-3;
   } // namespace
 

@@ -9,7 +9,8 @@ namespace taut
 {
   namespace
   {
-    /// Samples in a reference step, and bounds of the samples in a step; even numbers.
+    /// Samples in a reference step, and bounds of the samples in a step; even numbers. With two
+    /// samples both rules would know the same three values only.
     constexpr int samples_of_reference = 16, fewest_samples = 4, most_samples = 1 << 16;
   } // namespace
 

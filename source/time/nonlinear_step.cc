@@ -12,8 +12,9 @@ namespace taut
 {
   namespace
   {
-    /// Limits of the error of increments, see NonlinearBodies::set_guess(). If rounding keeps it
-    /// above the first limit, the balance of the step shows the error.
+    /// Limits of the error of increments, see NonlinearBodies::set_guess(). The first is a tenth of
+    /// the default Contact tolerance. If rounding keeps the error above it, the balance of the step
+    /// shows the error. A step that needs more iterations is halved.
     constexpr NewtonConvergence::Limits limits_of_step = {1e-9, 1e-5, 2};
     constexpr int most_in_step = 30;
 

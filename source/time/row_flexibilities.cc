@@ -12,7 +12,9 @@ namespace taut
 {
   namespace
   {
-    /// Relative shift that makes a system with dependent constraints definite.
+    /// Relative shift that makes a system with dependent constraints definite: well above the
+    /// smallest pivot of the factors, 1e-12 of the diagonal. Flexibilities are compared with bounds
+    /// of two digits.
     constexpr double shift_of_dependent_rows = 1e-9;
   } // namespace
 
@@ -94,7 +96,8 @@ namespace taut
 
   namespace
   {
-    /// Accuracy of the largest eigenvalue, and bound of iterations.
+    /// Accuracy of the largest eigenvalue, which is compared with bounds of two digits, and bound
+    /// of iterations: the quotients bound the eigenvalue from above after any number of them.
     constexpr double eigenvalue_tolerance = .01;
     constexpr int most_power_steps = 200;
   } // namespace

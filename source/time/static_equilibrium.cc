@@ -21,17 +21,23 @@ namespace taut
 {
   namespace
   {
-    /// Of the change of the displacements, relative to themselves.
+    /// Of the change of the displacements, relative to themselves: 1e-12 is some thousand
+    /// roundings. Changes up to 1e-7 that no longer halve count as rounding, and the certificate of
+    /// the state measures what they leave.
     constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 1, 500};
 
     /// Displacements count as this part of the longest link that turns at least: where a structure
-    /// is at rest as it is made, they are nothing but rounding.
+    /// is at rest as it is made, they are nothing but rounding. That is 1e-16 of a length, and so
+    /// 1e-13 of this part, below the limit of convergence.
     constexpr double least_part_of_links = 1e-3;
 
-    /// The same with bodies that are softer than their own, as a start for the next search.
+    /// The same with bodies that are softer than their own, as a start for the next search: its
+    /// bodies are up to ten times as stiff, so that more digits of the start would be lost again.
     constexpr NewtonConvergence::Limits rough = {1e-3, 1e-3, 1, 500};
 
-    /// Iterations: with full steps first, then with a line search.
+    /// Iterations: with full steps first, then with a line search. Near a solution full steps
+    /// double the digits, and five give all of them; the others are for the way. More full steps
+    /// would delay the line search where they end nowhere.
     constexpr int most_full_steps = 20, most_iterations = 1000;
 
     /**
@@ -325,7 +331,8 @@ namespace taut
 
       Descent descent() override
       {
-        // Of two energies with 1e-16 of rounding: the slope has half of the digits left.
+        // Of two energies with 1e-16 of rounding: the difference quotient is off by 1e-10 of the
+        // energy, and by this part of the curvature. A line search needs a few digits of the slope.
         constexpr double difference = 1e-6;
         const double energy_at_guess = energy(U, state.multiplier);
         end = state.displacement;

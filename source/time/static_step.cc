@@ -11,11 +11,13 @@ namespace taut
 {
   namespace
   {
-    /// Iterative refinement ends where the error of the closed constraints is rounding, or here.
+    /// Iterative refinement ends where the error of the closed constraints is a few roundings, or
+    /// here.
     constexpr double rounding = 1e-15;
     constexpr int most_refinements = 3;
 
-    /// Part of the terms of a gap below which its constraint touches.
+    /// Part of the terms of a gap below which its constraint touches: three digits above that to
+    /// which gaps are solved.
     constexpr double touching = 1e-9;
 
     /// |x| over size; 0 if x is.

@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// Share below which a part has no line in the log.
+    /// Share below which a part has no line in the log: it would be 0.0 %.
     constexpr double negligible = 5e-4;
   } // namespace
 

@@ -14,10 +14,12 @@ namespace taut
   namespace
   {
     /// Part of the largest multiplier, and of the terms of a gap, by which refinement may make a
-    /// multiplier negative or close an open gap.
+    /// multiplier negative or close an open gap: that to which gaps are solved,
+    /// ComplementarityOptions::linear_tolerance.
     constexpr double admissible = 1e-12;
 
-    /// Number of attempts to replace an indefinite tangent.
+    /// Number of attempts to replace an indefinite tangent: the last one adds twice the largest
+    /// stiffness, see NonlinearBodies::tangent().
     constexpr int most_attempts = 9;
   } // namespace
 

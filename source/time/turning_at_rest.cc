@@ -22,7 +22,8 @@ namespace taut
     /// Of each link: one along it, then two across it.
     constexpr std::size_t n_springs = 3;
 
-    /// A pivot below this part of the stiffness of its spring is not positive.
+    /// A pivot below this part of the stiffness of its spring is not positive: a single prop counts
+    /// as unstable from 2e-6 below its critical load on.
     constexpr double least_pivot = 1e-6;
   } // namespace
 

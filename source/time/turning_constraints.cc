@@ -14,10 +14,12 @@ namespace taut
     /// of the distance of the ends.
     constexpr double weight_of_direction = 1e2, weight_of_gap = 1e3;
 
-    /// Cosine of the largest rotation of a link with a force in a step, 120 degrees.
+    /// Cosine of the largest rotation of a link with a force in a step, 120 degrees: the mean of
+    /// both directions has half of its length there, and none at 180 degrees.
     constexpr double largest_turn = -.5;
 
-    /// Distance, as a part of the length, below which ends that rotate further meet.
+    /// Distance, as a part of the length, below which ends that rotate further meet. It only
+    /// chooses between two messages.
     constexpr double nearest_pass = 1e-3;
 
     Coordinates scaled(const double s, const Coordinates &a)

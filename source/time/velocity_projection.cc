@@ -13,7 +13,8 @@ namespace taut
     constexpr double rounding_of_rates = 1e-12;
 
     /// Part of the largest terms of a rate so far, and of the largest rate with the kinetic energy,
-    /// below which rates count as rest.
+    /// below which rates count as rest. Rates are solved to 1e-12 of their terms: with this part,
+    /// to 1e-15 of the largest ones, which is rounding.
     constexpr double rest = 1e-3;
   } // namespace
 

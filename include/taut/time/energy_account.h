@@ -82,7 +82,8 @@ namespace taut
     /// Whether some group has large motions.
     bool has_large_motions() const;
 
-    /// Part of the terms of a gap by which its tracked value may be wrong.
+    /// Part of the terms of a gap by which its tracked value may be wrong: a sum of the increments
+    /// of some thousand steps, each with 1e-16 of rounding.
     static constexpr double rounding_of_gaps = 1e-12;
 
     /// Rounding of the gap of a constraint [m, rad].
