@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
 #include "scene/compiled_formula.h"
+#include "scene/formula_terms.h"
 #include "scene/tabulated_function.h"
 #include <taut/base/exceptions.h>
 #include <taut/scene/expression.h>
@@ -283,6 +284,20 @@ namespace taut
     // A power that is no whole number is a root.
     static const std::regex power("\\^ *([^ 0-9]|[0-9]*\\.)");
     return !std::regex_search(text, power);
+  }
+
+  Expression::Separated Expression::separated() const
+  {
+    Separated result;
+    const FormulaTerms terms = terms_of(text);
+    for (const FormulaTerms::Product &product : terms.products)
+      result.products.push_back(
+          {Expression(product.of_place, entry), Expression(product.of_time, entry)});
+    if (terms.products.empty())
+      result.rest = *this;
+    else if (!terms.rest.empty())
+      result.rest = Expression(terms.rest, entry);
+    return result;
   }
 
   std::string Expression::content() const

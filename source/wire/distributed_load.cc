@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <regex>
 #include <utility>
 
 namespace taut
@@ -76,8 +75,7 @@ namespace taut
   WireComponent::DistributedLoad::DistributedLoad(const WireComponent &wire, const double factor,
                                                   const Load &load)
       : magnitude(load.magnitude), integral(magnitude), name(load.name), origin(load.origin),
-        wire_length(wire.wire_length),
-        is_uniform(!std::regex_search(magnitude.formula(), std::regex("\\bs\\b")))
+        wire_length(wire.wire_length)
   {
     const dealii::QGauss<1> rule(ElementLoad::n_points);
     const bool stands = !magnitude.depends_on_time();
@@ -97,10 +95,17 @@ namespace taut
           v *= factor * h * rule.weight(q);
       }
     }
-    if (is_uniform || stands)
+    if (stands)
       return;
     find_standing_details();
     smooth = std::make_unique<const SmoothLoad>(magnitude, elements);
+    if (const double speed = speed_of_shape(magnitude.formula()); speed > 0.)
+    {
+      const double begin = elements.front().begin,
+                   end = elements.back().begin + elements.back().length;
+      shape =
+          std::make_unique<TravellingShape>(magnitude, speed, end, (end - begin) / elements.size());
+    }
   }
 
   void WireComponent::DistributedLoad::find_standing_details()
@@ -148,22 +153,16 @@ namespace taut
 
   void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const
   {
-    if (is_uniform)
-    {
-      const double everywhere = magnitude(elements.front().places[0], t);
-      for (const Element &element : elements)
-        for (const LinearForm &shape : element.shapes)
-          shape.add_to(everywhere, P);
-      return;
-    }
     if (smooth && smooth->apply(t, P))
       return;
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
     for (const Element &element : elements)
     {
-      const ElementLoad on = over(element, t, typical);
-      for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
+      const bool is_free =
+          shape && shape->is_zero(element.begin, element.begin + element.length, t);
+      const ElementLoad on = is_free ? ElementLoad() : over(element, t, typical);
+      for (unsigned int q = 0; q < ElementLoad::n_points && !is_free; ++q)
         element.shapes[q].add_to(on.values[q], P);
       if (magnitude.depends_on_time())
         check.add(element, on);
@@ -175,7 +174,7 @@ namespace taut
   double WireComponent::DistributedLoad::sample(const double t) const
   {
     constexpr std::size_t most_places = 8;
-    const std::size_t stride = is_uniform ? elements.size() : elements.size() / most_places + 1;
+    const std::size_t stride = elements.size() / most_places + 1;
     double sum = 0.;
     for (std::size_t e = stride / 2; e < elements.size(); e += stride)
       sum += magnitude(elements[e].places[0], t);

@@ -4,6 +4,7 @@
 
 #include "wire/element_load.h"
 #include "wire/smooth_load.h"
+#include "wire/travelling_shape.h"
 
 #include <taut/wire/wire_component.h>
 
@@ -42,9 +43,9 @@ namespace taut
     LoadIntegral integral;
     std::string name, origin;
     double wire_length;
-    bool is_uniform; ///< along the wire
     std::vector<Element> elements;
     std::unique_ptr<const SmoothLoad> smooth; ///< of loads that change along the wire and in time
+    std::unique_ptr<const TravellingShape> shape; ///< of loads that travel; none for others
   };
 } // namespace taut
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "wire/smooth_load.h"
+#include "wire/travelling_shape.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -7,9 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
-#include <set>
-#include <string>
 
 namespace taut
 {
@@ -89,19 +87,6 @@ namespace taut
       return known;
     }
 
-    /// The speed v of a formula of (s - v t) alone [m/s]; 0: it is another one, or is not written
-    /// so.
-    double speed_of(const std::string &formula)
-    {
-      static const std::regex moving("\\( *s *- *([0-9.]+) *\\* *t *(?=[-+)])"), word("\\b[st]\\b");
-      std::set<std::string> speeds;
-      for (std::sregex_iterator at(formula.begin(), formula.end(), moving), end; at != end; ++at)
-        speeds.insert(at->str(1));
-      if (speeds.size() != 1 || std::regex_search(std::regex_replace(formula, moving, "( "), word))
-        return 0.;
-      return std::stod(*speeds.begin());
-    }
-
     double largest_of(const std::vector<double> &values)
     {
       double largest = 0.;
@@ -116,7 +101,7 @@ namespace taut
   {
     // What is on the wire between two looks is on it at one of them.
     const double length = elements.back().begin + elements.back().length - elements.front().begin,
-                 speed = speed_of(magnitude.formula());
+                 speed = speed_of_shape(magnitude.formula());
     if (!magnitude.is_analytic() || !(speed > 0.) || 2. * speed > looks_per_second * length)
       return;
     const std::size_t fewest = std::min(fewest_elements, elements.size());

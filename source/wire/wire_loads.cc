@@ -123,25 +123,106 @@ namespace taut
         continue;
       if (load.kind == Load::Kind::moving)
         time_loads.push_back(std::make_unique<MovingLoad>(*this, load, factor));
+      else if (load.kind == Load::Kind::distributed)
+        add_distributed_load(load, factor);
       else
       {
-        std::unique_ptr<TimeLoad> force;
-        if (load.kind == Load::Kind::distributed)
-          force = std::make_unique<DistributedLoad>(*this, factor, load);
-        else
-        {
-          LinearForm shape;
-          evaluate(load.target.position, load.rotational, shape);
-          for (double &v : shape.value)
-            v *= factor;
-          force = std::make_unique<PointLoad>(shape, [f = load.magnitude, s = load.target.position](
-                                                         const double t) { return f(s, t); });
-        }
+        LinearForm shape;
+        evaluate(load.target.position, load.rotational, shape);
+        for (double &v : shape.value)
+          v *= factor;
+        auto force = std::make_unique<PointLoad>(
+            shape,
+            [f = load.magnitude, s = load.target.position](const double t) { return f(s, t); });
         if (load.magnitude.depends_on_time())
           time_loads.push_back(std::move(force));
         else
           force->add(0., constant_force);
       }
     }
+  }
+
+  namespace
+  {
+    /// A sum of forces, each times a function of t.
+    class ProductLoad : public TimeLoad
+    {
+    public:
+      void add_product(const std::vector<double> &forces, const Expression &of_time)
+      {
+        Product product{{}, of_time};
+        double sum = 0., size = 0.;
+        for (unsigned int i = 0; i < forces.size(); ++i)
+          if (forces[i] != 0.)
+          {
+            product.shape.add(i, forces[i]);
+            sum += forces[i];
+            size += std::fabs(forces[i]);
+          }
+        product.size = std::copysign(size, sum);
+        if (size > 0.)
+          products.push_back(std::move(product));
+      }
+
+      bool empty() const { return products.empty(); }
+
+      void add(const double t, std::vector<double> &P) const override
+      {
+        for (const Product &product : products)
+          product.shape.add_to(product.of_time(0., t), P);
+      }
+
+      double sample(const double t) const override
+      {
+        double sum = 0.;
+        for (const Product &product : products)
+          sum += product.size * product.of_time(0., t);
+        return sum;
+      }
+
+    private:
+      struct Product
+      {
+        LinearForm shape;
+        Expression of_time;
+        double size = 0.; ///< of the force, with the sign of its sum [N, N m]
+      };
+      std::vector<Product> products;
+    };
+  } // namespace
+
+  /// Products of a function of s and one of t are integrated here, once.
+  void WireComponent::add_distributed_load(const Load &load, const double factor)
+  {
+    const auto part = [&](const Expression &magnitude)
+    {
+      Load own = load;
+      own.magnitude = magnitude;
+      return std::make_unique<DistributedLoad>(*this, factor, own);
+    };
+    const auto add_standing = [&](const Expression &magnitude)
+    { part(magnitude)->add(0., constant_force); };
+    if (!load.magnitude.depends_on_time())
+    {
+      add_standing(load.magnitude);
+      return;
+    }
+    const Expression::Separated separated = load.magnitude.separated();
+    auto products = std::make_unique<ProductLoad>();
+    for (const Expression::Separated::Product &product : separated.products)
+      if (product.of_time.depends_on_time())
+      {
+        std::vector<double> forces(constant_force.size(), 0.);
+        part(product.of_place)->add(0., forces);
+        products->add_product(forces, product.of_time);
+      }
+      else
+        add_standing(product.of_place);
+    if (!products->empty())
+      time_loads.push_back(std::move(products));
+    if (separated.rest.depends_on_time())
+      time_loads.push_back(part(separated.rest));
+    else if (!separated.rest.is_zero())
+      add_standing(separated.rest);
   }
 } // namespace taut

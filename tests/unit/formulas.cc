@@ -119,6 +119,50 @@ namespace
     EXPECT_EQ(n_wrong, std::vector<int>(n_threads, 0));
   }
 
+  /// Values of a formula that is taken apart are those of the whole, to rounding.
+  void expect_same(const std::string &text, const std::size_t n_products, const bool has_rest)
+  {
+    SCOPED_TRACE(text);
+    const Expression formula(text, "formula");
+    const Expression::Separated parts = formula.separated();
+    EXPECT_EQ(parts.products.size(), n_products);
+    EXPECT_EQ(!parts.rest.is_zero(), has_rest);
+    for (const auto &[of_place, of_time] : parts.products)
+      EXPECT_TRUE(of_place(1., 2.) == of_place(1., 3.) && of_time(1., 2.) == of_time(5., 2.));
+    for (const double s : {.3, 1., 1.7, 4.99, 7.3})
+      for (const double t : {.2, 1., 2., 3., 4.7})
+      {
+        double sum = parts.rest(s, t), size = std::fabs(sum);
+        for (const auto &[of_place, of_time] : parts.products)
+        {
+          sum += of_place(s, 0.) * of_time(0., t);
+          size += std::fabs(of_place(s, 0.) * of_time(0., t));
+        }
+        EXPECT_NEAR(sum, formula(s, t), 1e-14 * size) << s << ", " << t;
+      }
+  }
+
+  TEST(Formulas, products_of_place_and_time_are_taken_apart)
+  {
+    for (const std::string &text : formulas)
+    {
+      const Expression::Separated parts = Expression(text, "formula").separated();
+      expect_same(text, parts.products.size(), !parts.rest.is_zero());
+    }
+    expect_same("120*sin(2*pi*t)", 1, false);
+    expect_same("-3e-1*sin(s) * cos(t) /(1+s)/ (2+t)", 1, false);
+    expect_same("1e+2*s - 2*t - exp(-s)*t^2 - -s", 4, false);
+    expect_same("2^-s*t", 1, false);
+    expect_same("3*t - -sin(s*t) + -cos(s*t)", 1, true);
+    expect_same("-s^2*t + 1.5E-1*exp(-(s-2*t)^2) - 4", 2, true);
+    expect_same("3*s*t - exp(-(s-2*t)^2)/(1+s)", 1, true);
+    expect_same("if(t<1,0,t-1)*(s>2) + min(s,3)*max(t,1)", 2, false);
+    expect_same("t < 1 ? 0 : t", 1, false);
+    expect_same("t < 1 ? 0 : s", 0, true);
+    expect_same("s > 2 & t < 3", 0, true);
+    expect_same("(s > 2)*(t < 3)", 1, false);
+  }
+
   std::string message(const std::string &text, const Expression::Variables variables)
   {
     return verification::error_of([&] { Expression(text, "Load/Magnitude", variables)(0., 2.); });

@@ -10,8 +10,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <regex>
-
 using namespace verification;
 
 namespace
@@ -186,9 +184,11 @@ TEST(DistributedLoads, smooth_ones_are_those_of_four_gauss_points_to_the_bit)
         wire.force(t);
         const taut::Expression load(formula, "load");
         const std::vector<double> P = by_gauss_points(*wire.body, wire_of(kind), load, t);
-        // What moves along the wire may be integrated over more than one element.
-        if (load.depends_on_time() && std::regex_search(formula, std::regex("\\bs\\b")))
-          EXPECT_LE(verification::largest_difference(wire.P, P), 1e-6 * verification::largest(P));
+        // What moves along the wire may be integrated over more than one element; what is a product
+        // of a function of s and one of t is integrated without the latter.
+        if (load.depends_on_time())
+          EXPECT_LE(verification::largest_difference(wire.P, P),
+                    (load.separated().rest.is_zero() ? 1e-14 : 1e-6) * verification::largest(P));
         else
           EXPECT_TRUE(wire.P == P) << kind << ", " << formula << ", t = " << t;
       }
@@ -257,6 +257,23 @@ TEST(DistributedLoads, what_cannot_be_integrated_is_refused)
   }
 }
 
+// Names of files may look like variables; a load is what it is at times before the start, too.
+TEST(DistributedLoads, no_term_is_lost)
+{
+  double largest_error = 0.;
+  Folder folder;
+  const std::string table = folder.write("wind-t.csv", "s [m],t\n0,3\n21,3\n");
+  for (const std::string &kind : kinds)
+    for (const double t : {0., .3, 2.})
+    {
+      expect_force(kind, "2*sin(t) + table(" + table + ", t, s)", length * (2. * std::sin(t) + 3.),
+                   .5 * length * length * (2. * std::sin(t) + 3.), 3. * length, largest_error, t);
+      expect_force(kind, "100*(abs(s-20*t-50)<0.1)", 20., 200., 20., largest_error, -2.);
+      expect_force(kind, "t*(abs(s-4)<1)+3*s-sin(s-4*t)+sin(s-4*t)", 2. * t + 1.5 * length * length,
+                   8. * t + length * length * length, 60. * length, largest_error, t);
+    }
+}
+
 // A moment m a length turns a wire by m L about any point, and pushes nowhere.
 TEST(DistributedLoads, moments_turn)
 {
@@ -265,17 +282,20 @@ TEST(DistributedLoads, moments_turn)
   EXPECT_NEAR(wire.moment(), 3. * 7.25, 3. * 7.25 * bound);
 }
 
-// The same formula with a function that is not smooth, times 0, is integrated element by element.
-TEST(DistributedLoads, smooth_loads_by_panels_are_those_by_elements)
+// The same formula with a factor of 1 that is no smooth function of s - v t, nor of s or t alone,
+// is integrated element by element.
+TEST(DistributedLoads, loads_by_panels_and_by_products_are_those_by_elements)
 {
   for (const std::string &kind : kinds)
     for (const std::string formula :
          {"3*exp(-((s-7*t-2)/12)^2)", "2+sin(.2*(s-7*t))", "3*exp(-((s-7*t-2)/3)^2)",
           "5*exp(-((s-7*t)/15)^2)+exp(-((t-1.12)/.02)^2)*exp(-((s-11.8)/.25)^2)",
           "sin(s-2*t)+cos(.7*s)*t", "exp(-((s-7*t)/.25)^2)", "exp(-((t-1)/.01)^2)*s/(1+s^2)",
-          "tanh(s-9*t)", "exp(-((t-1.12)/.02)^2)*exp(-((s-10.3)/.3)^2)"})
+          "tanh(s-9*t)", "100*(abs(s-7*t-1)<0.1)", "max(0,1-abs(s-9*t)/0.3)",
+          "20*(abs(s-7*t)<0.2)*(1+(s-7*t))-3*(abs(s-7*t+5)<1)",
+          "exp(-((t-1.12)/.02)^2)*exp(-((s-10.3)/.3)^2)"})
     {
-      LoadedWire smooth(kind, formula), other(kind, formula + "+0*abs(s)");
+      LoadedWire smooth(kind, formula), other(kind, "(" + formula + ")*(1+0*abs(s-t))");
       double difference = 0., largest = 0.;
       for (double t = 0.; t < 3.; t += .031)
       {
@@ -286,8 +306,9 @@ TEST(DistributedLoads, smooth_loads_by_panels_are_those_by_elements)
       }
       SCOPED_TRACE(kind + ", " + formula);
       EXPECT_GT(largest, 0.);
-      EXPECT_LE(figure("smooth load by panels and by elements, " + formula, difference / largest),
-                1e-6);
+      EXPECT_LE(
+          figure("load by panels, products and by elements, " + formula, difference / largest),
+          2. * bound);
       const bool is_wide = has(formula, "/12") || has(formula, ".2*");
       EXPECT_TRUE(!is_wide || difference > 0.) << "panels are not used";
     }

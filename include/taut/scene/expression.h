@@ -68,6 +68,11 @@ namespace taut
     /// conditions, magnitudes, roundings or roots.
     bool is_analytic() const;
 
+    /// The formula in s and t as a sum of products of a function of s and one of t, as it is
+    /// written, and the rest of it.
+    struct Separated;
+    Separated separated() const;
+
     const std::string &formula() const { return text; }
 
     /// The formula with digests of its tables: differs where values may differ.
@@ -102,6 +107,16 @@ namespace taut
     double constant = 0.; ///< value of a number, and of a formula without variables
     bool varies = false;
     bool time_dependent = false;
+  };
+
+  struct Expression::Separated
+  {
+    struct Product
+    {
+      Expression of_place, of_time;
+    };
+    std::vector<Product> products;
+    Expression rest; ///< zero: there is none
   };
 } // namespace taut
 

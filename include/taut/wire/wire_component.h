@@ -81,6 +81,7 @@ namespace taut
     void add_supports(const Scene &scene, std::size_t wire);
     void add_point_masses(const Scene &scene, std::size_t wire, double gravity);
     void add_loads(const Scene &scene, std::size_t wire, double gravity);
+    void add_distributed_load(const Load &load, double factor);
     void interpolate(const Expression &f, std::vector<double> &U) const;
     void evaluate(double s, bool slope, LinearForm &result) const;
 
