@@ -175,9 +175,10 @@ namespace taut
         {
           if (!processes.is_root())
             return;
-          FolderLock().take(parameters.output.folder);
-          remove_unfinished(parameters.output.folder);
+          FolderLock lock;
+          lock.take(parameters.output.folder);
           check_folder(parameters);
+          remove_unfinished(parameters.output.folder);
         });
   }
 

@@ -268,7 +268,7 @@ namespace taut
       observed->observe(*guest);
     for (const std::string &name : output.observers)
       observed->observe(parameters.make_observer(name));
-    if (!model.contacts.empty())
+    if (output.writes && !model.contacts.empty())
       observed->observe(std::make_unique<ContactTables>(model, output.field_interval));
     observed->observe(std::make_unique<Fields>(output.folder, model, bodies, output.field_interval,
                                                output.subdivisions));
@@ -330,18 +330,25 @@ namespace taut
     }
   }
 
+  std::vector<Warning> Simulation::warnings() const
+  {
+    std::vector<Warning> all;
+    if (limits)
+      all = limits->warnings();
+    const std::vector<Warning> others = accuracy ? accuracy->warnings() : std::vector<Warning>();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
+
   RunDescription Simulation::description(const bool is_partial) const
   {
-    std::vector<Warning> warnings = limits->warnings();
-    for (const Warning &warning : accuracy->warnings())
-      warnings.push_back(warning);
     return {parameters.file_name(),
             parameters.generator_name,
             motion->scheme(),
             parameters.step,
             n_steps() * parameters.step,
             is_partial,
-            warnings};
+            warnings()};
   }
 
   /// Throws after a request to stop, or for wrong energies.

@@ -275,6 +275,12 @@ namespace taut
     for (std::size_t i = 0; i < best.quantities.size(); ++i)
       log << "  " << study.quantity_names[i] << " = " << best.quantities[i] << ", expected error "
           << best.bounds[i] + study.references[i].error / study.references[i].scale << '\n';
+    std::vector<std::string> entries;
+    for (std::size_t k = 0; k < best.values.size(); ++k)
+      for (const std::string &entry : study.parameter_lists[k].entries)
+        entries.push_back(entry + "=" + best.values[k]);
+    if (const std::string warning = runs.warning_of_steps(entries); !warning.empty())
+      log << "  " << warning << '\n';
     log << "  checked by "
         << (second_scheme.empty() ? "no second scheme: none suits the contacts" : second_scheme)
         << "\nThe search took " << study.settings.size() << " runs and " << runs.elapsed() << " s, "

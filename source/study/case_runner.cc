@@ -10,17 +10,6 @@
 
 namespace taut
 {
-  namespace
-  {
-    std::vector<NamedQuantity> quantities_of(const Simulation &simulation)
-    {
-      std::vector<NamedQuantity> all = simulation.statistics().named_quantities();
-      const std::vector<NamedQuantity> others = simulation.observed_quantities();
-      all.insert(all.end(), others.begin(), others.end());
-      return all;
-    }
-  } // namespace
-
   std::vector<NamedQuantity> CaseRunner::quantities()
   {
     set_parameters({});
@@ -45,7 +34,8 @@ namespace taut
       Simulation simulation(*parameters, silent, Communicator(), &shared);
       simulation.stop_if(stop_asked);
       simulation.run();
-      return {quantities_of(simulation), simulation.statistics().worst_residuals()};
+      return {quantities_of(simulation), simulation.statistics().worst_residuals(),
+              simulation.warnings()};
     }
     catch (const EntryError &e)
     {
@@ -99,9 +89,7 @@ namespace taut
   {
     std::ostringstream silent;
     const Simulation simulation(parameters, silent);
-    const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                    simulation.constraints(),
-                                    [&] { return simulation.observed_quantities(); });
+    const QuantityRecorder recorder(parameters.study, simulation);
   }
 
   MeasuredRun measure_run(const Parameters &parameters, const bool with_quantities,
@@ -113,16 +101,14 @@ namespace taut
       if (parameters.step_parameters.adaptive())
         throw EntryError("Time/Step control", "a study compares fixed steps; set 'fixed'");
       Simulation simulation(parameters, silent);
-      QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                simulation.constraints(),
-                                [&] { return simulation.observed_quantities(); });
+      QuantityRecorder recorder(parameters.study, simulation);
       Stopwatch stopwatch(simulation.n_steps());
       simulation.stop_if(stop_asked);
       simulation.observe(stopwatch);
       if (with_quantities)
         simulation.observe(recorder);
       simulation.run();
-      const Residuals &worst = recorder.worst_residuals();
+      const Residuals &worst = simulation.statistics().worst_residuals();
       return {with_quantities ? recorder.study_quantities() : std::vector<StudyQuantity>(),
               stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
               simulation.n_steps(), simulation.what_steps_miss()};

@@ -20,6 +20,7 @@ namespace taut
   {
     std::vector<NamedQuantity> quantities;
     Residuals worst; ///< largest residuals of any step
+    std::vector<Warning> warnings;
   };
 
   /**

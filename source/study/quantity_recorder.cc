@@ -5,6 +5,7 @@
 #include "output/reactions.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/table_file.h>
+#include <taut/simulation/simulation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,20 +35,27 @@ namespace taut
     return std::sqrt(sum / quantity.time.size());
   }
 
-  QuantityRecorder::QuantityRecorder(const StudyParameters &study,
-                                     const StatisticsParameters &statistics, const Scene &scene,
-                                     const Constraints &rows, Others others)
-      : statistics(statistics, scene, rows), others(std::move(others))
+  std::vector<NamedQuantity> quantities_of(const Simulation &simulation)
+  {
+    std::vector<NamedQuantity> all = simulation.statistics().named_quantities();
+    const std::vector<NamedQuantity> others = simulation.observed_quantities();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
+
+  QuantityRecorder::QuantityRecorder(const StudyParameters &study, const Simulation &simulation)
+      : simulation(simulation)
   {
     for (std::size_t i = 0; i < study.quantities.items.size(); ++i)
-      sources.push_back(find(study.quantities.items[i], study.quantities.title(i), scene, rows));
+      sources.push_back(find(study.quantities.items[i], study.quantities.title(i)));
   }
 
   QuantityRecorder::Source QuantityRecorder::find(const StudyParameters::QuantityItem &item,
-                                                  const std::string &title, const Scene &scene,
-                                                  const Constraints &rows) const
+                                                  const std::string &title) const
   {
-    const std::vector<NamedQuantity> known = numbers();
+    const Scene &scene = simulation.scene();
+    const Constraints &rows = simulation.constraints();
+    const std::vector<NamedQuantity> known = quantities_of(simulation);
     std::vector<std::string> items, quantities;
     for (std::size_t i = 0; i < known.size(); ++i)
     {
@@ -61,7 +69,7 @@ namespace taut
         items.push_back(known[i].item);
     }
     if (quantities.empty())
-      throw EntryError(title + "/Of", "the scene has no contact, link, probe or support '" +
+      throw EntryError(title + "/Of", "the scene has no contact, link, probe, support or span '" +
                                           item.of + "'" + suggestion(item.of, items));
     quantities.push_back("history");
     if (item.quantity != "history")
@@ -78,7 +86,8 @@ namespace taut
           of_wires.push_back(rows.index_of_link(link));
         return {Source::Kind::force_of_constraints, 0, of_wires};
       }
-    if (const std::vector<std::size_t> links = statistics.links_of_sum(item.of); !links.empty())
+    if (const std::vector<std::size_t> links = simulation.statistics().links_of_sum(item.of);
+        !links.empty())
     {
       std::vector<std::size_t> of_links;
       for (const std::size_t link : links)
@@ -95,13 +104,12 @@ namespace taut
       if (supports[i].name == item.of)
         return {Source::Kind::support, i};
     throw EntryError(title + "/Quantity", "'" + item.of +
-                                              "' is what an observer measures, which has no "
-                                              "history; take one of its quantities");
+                                              "' is measured as a number, and has no history; "
+                                              "take one of its quantities");
   }
 
   void QuantityRecorder::record(const StepView &step)
   {
-    statistics.record(step);
     times.push_back(step.state.time);
     for (Source &source : sources)
       if (source.kind == Source::Kind::probe)
@@ -117,17 +125,9 @@ namespace taut
       }
   }
 
-  std::vector<NamedQuantity> QuantityRecorder::numbers() const
-  {
-    std::vector<NamedQuantity> all = statistics.named_quantities();
-    const std::vector<NamedQuantity> of_others = others();
-    all.insert(all.end(), of_others.begin(), of_others.end());
-    return all;
-  }
-
   std::vector<StudyQuantity> QuantityRecorder::study_quantities() const
   {
-    const std::vector<NamedQuantity> all = numbers();
+    const std::vector<NamedQuantity> all = quantities_of(simulation);
     std::vector<StudyQuantity> list;
     for (const Source &source : sources)
     {

@@ -5,12 +5,14 @@
 #include <taut/output/statistics.h>
 #include <taut/simulation/study_parameters.h>
 
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace taut
 {
+  class Simulation;
+
   /// One quantity of a study from one run: a number, or a record over time and its root mean
   /// square.
   struct StudyQuantity
@@ -28,23 +30,21 @@ namespace taut
    */
   double distance(const StudyQuantity &quantity, const StudyQuantity &reference);
 
+  /// Quantities of the statistics of a run so far, then those of its other observers.
+  std::vector<NamedQuantity> quantities_of(const Simulation &simulation);
+
   /// Records the quantities of a study in a run, and how long the run took with its output.
   class QuantityRecorder : public Observer
   {
   public:
-    /// What the other observers of the run measure so far.
-    using Others = std::function<std::vector<NamedQuantity>()>;
-
-    /// Throws EntryError if the scene lacks an item of the study, or the item lacks the quantity.
-    QuantityRecorder(const StudyParameters &study, const StatisticsParameters &statistics,
-                     const Scene &scene, const Constraints &rows, Others others);
+    /// @p simulation is kept by reference. Throws EntryError if its scene lacks an item of the
+    /// study, or the item lacks the quantity.
+    QuantityRecorder(const StudyParameters &study, const Simulation &simulation);
 
     void record(const StepView &step) override;
 
     /// The quantities, in the order of the study.
     std::vector<StudyQuantity> study_quantities() const;
-
-    const Residuals &worst_residuals() const { return statistics.worst_residuals(); }
 
   private:
     /// The source of a quantity.
@@ -52,7 +52,7 @@ namespace taut
     {
       enum class Kind
       {
-        number,               ///< `index` in numbers()
+        number,               ///< `index` in quantities_of()
         force_of_constraints, ///< history of the force of `rows`, of a strip or a sum those of its
                               ///< links
         probe,                ///< history of probe `index`
@@ -62,14 +62,9 @@ namespace taut
       std::vector<std::size_t> rows = {};
       std::vector<double> history = {};
     };
-    Source find(const StudyParameters::QuantityItem &item, const std::string &title,
-                const Scene &scene, const Constraints &rows) const;
+    Source find(const StudyParameters::QuantityItem &item, const std::string &title) const;
 
-    /// Quantities of the statistics, then quantities of the other observers.
-    std::vector<NamedQuantity> numbers() const;
-
-    Statistics statistics;
-    Others others;
+    const Simulation &simulation;
     std::vector<Source> sources;
     std::vector<double> times;
   };

@@ -104,7 +104,7 @@ namespace taut
       names.push_back(title(quantity));
       header += "," + csv_cell(names.back());
     }
-    header += ",complementarity [1],balance [1],message\n";
+    header += ",complementarity [1],balance [1],warnings,message\n";
   }
 
   void Sweep::prepare_folder()
@@ -305,10 +305,10 @@ namespace taut
       message = too_large;
     }
     std::replace(message.begin(), message.end(), '\n', ' ');
-    return text + std::string(names.size() + 2, ',') + "," + csv_cell(message);
+    return text + std::string(names.size() + 3, ',') + "," + csv_cell(message);
   }
 
-  /// Quantities and residuals of a case.
+  /// Quantities, residuals and kinds of the warnings of a case.
   std::string Sweep::numbers_of(const std::size_t number)
   {
     std::vector<std::string> entries;
@@ -324,10 +324,13 @@ namespace taut
       text += "," + csv_number(result.quantities[i].value);
     }
     if (!is_same)
-      throw UserError("the scene of this case has other contacts, links, probes or supports "
+      throw UserError("the scene of this case has other contacts, links, probes, supports or spans "
                       "than the parameter file: its quantities have no columns");
+    std::string warnings;
+    for (const Warning &warning : result.warnings)
+      warnings += (warnings.empty() ? "" : "; ") + warning.kind;
     return text + "," + csv_number(result.worst.complementarity) + "," +
-           csv_number(result.worst.balance);
+           csv_number(result.worst.balance) + "," + csv_cell(warnings);
   }
 
   /// A sweep that is killed in this function leaves an incomplete last line.

@@ -122,6 +122,34 @@ namespace taut
     return trials[levels] = std::move(trial);
   }
 
+  std::string TrialRuns::warning_of_steps(const std::vector<std::string> &entries) const
+  {
+    if (file_parameters.check_steps == "no")
+      return "";
+    CaseRunner runner(file, overrides);
+    runner.stop_if([this]() { return ask(); });
+    std::vector<std::string> list = entries;
+    list.emplace_back("Time/Check steps=yes");
+    const std::string not_checked = "the motion as a whole was not checked: ";
+    try
+    {
+      for (const Warning &warning : runner.run(list).warnings)
+        if (warning.kind == "step")
+          return "the motion as a whole is less accurate than these quantities: " + warning.message;
+    }
+    catch (const Interrupted &e)
+    {
+      if (e.signal() != SIGALRM)
+        throw;
+      return not_checked + "Study/Budget is over";
+    }
+    catch (const UserError &e)
+    {
+      return not_checked + e.what();
+    }
+    return "";
+  }
+
   MeasuredRun TrialRuns::with_scheme(const Levels &levels, const std::string &scheme) const
   {
     std::vector<std::string> list = entries(levels);

@@ -42,6 +42,11 @@ namespace taut
     /// The run at @p levels with another scheme, by name. Throws UserError and Interrupted.
     MeasuredRun with_scheme(const Levels &levels, const std::string &scheme) const;
 
+    /// What the check of steps says of the motion of a run with these entries,
+    /// "Section/Entry=value", or why it says nothing. Empty: it does not warn, or Time/Check steps
+    /// is no. Throws Interrupted.
+    std::string warning_of_steps(const std::vector<std::string> &entries) const;
+
     const Parameters &parameters() const { return file_parameters; }
     const std::vector<Refinement> &refinements() const { return all_refinements; }
     const std::map<Levels, Trial> &all() const { return trials; }

@@ -116,6 +116,20 @@ TEST_F(AccuracyTest, a_run_takes_what_was_stored)
                    {"another scene", "Mass is '3' here"});
 }
 
+// The first swing is right where the phase is lost after twenty of them: the check of steps of the
+// run says 40 %, and the search must not say less of the whole.
+TEST_F(AccuracyTest, agrees_with_the_check_of_steps_of_its_run)
+{
+  const std::string line = "  the motion as a whole is less accurate than these quantities: ";
+  write(studies::oscillator + "Time: End = 13\nQuantity swing: Of = place; Quantity = smallest\n");
+  search(.01);
+  EXPECT_TRUE(has(log.str(), line + "the step is too long: the place of 'block' is off by "))
+      << log.str();
+  write(studies::oscillator + "Time: End = 13\nQuantity all: Of = place; Quantity = history\n");
+  search(.01);
+  EXPECT_FALSE(has(log.str(), line)) << log.str();
+}
+
 // Newmark keeps the amplitude of an oscillation that no step resolves, BDF2 does not.
 TEST_F(AccuracyTest, a_second_scheme_must_agree)
 {

@@ -230,6 +230,25 @@ Sweep/Parameter both: Entries = Time/Step, Network/Mass block/Inertia; Values = 
   EXPECT_FALSE(has(second, "--set")) << second;
 }
 
+// A pulse that is shorter than the longer one of the steps.
+TEST_F(StudyTest, a_sweep_says_which_cases_warn)
+{
+  write(bare_oscillator + "Load pulse: On = block; Magnitude = 500*exp(-((t-0.505)/1e-3)^2)\n"
+                          "Sweep: Parameters = step\n"
+                          "Sweep/Parameter step: Entries = Time/Step; Values = 0.01, 1e-4\n");
+  taut::Sweep("scene.prm", {}, taut::Communicator(), log).run();
+  std::istringstream table(verification::file_text("results/sweep/sweep.csv"));
+  std::string head, first, second;
+  std::getline(table, head);
+  std::getline(table, first);
+  std::getline(table, second);
+  const auto ends = [](const std::string &line, const std::string &tail)
+  { return line.size() > tail.size() && line.substr(line.size() - tail.size()) == tail; };
+  EXPECT_TRUE(ends(head, ",balance [1],warnings,message")) << head;
+  EXPECT_TRUE(ends(first, ",feature,")) << first;
+  EXPECT_TRUE(ends(second, ",,")) << second;
+}
+
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
 {
   const taut::StudyResult odd =

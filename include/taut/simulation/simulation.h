@@ -70,6 +70,9 @@ namespace taut
     /// have.
     std::vector<NamedQuantity> observed_quantities() const;
 
+    /// Of the run so far, as statistics.json has them.
+    std::vector<Warning> warnings() const;
+
     /// After a run in time: what lies between its steps, unseen, in words; empty: nothing.
     std::string what_steps_miss() const;
 
