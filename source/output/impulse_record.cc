@@ -19,21 +19,32 @@ namespace taut
     /// Constraints between the same bodies that may share an impulse.
     constexpr std::size_t least_shared = 3;
 
-    /// The lumped bodies that a fixed unilateral constraint acts on, by number; empty: others, too.
+    /// The DoFs of lumped bodies that a fixed rigid unilateral constraint acts on, by number;
+    /// empty: another one, or other bodies, too.
     std::vector<std::vector<std::size_t>> lumped_ends(const Structure &structure,
                                                       const Constraints &constraints)
     {
+      double most_dofs = 1.;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        if (structure[k].is_lumped())
+          most_dofs = std::max<double>(most_dofs, structure[k].n_dofs());
+      const auto stride = static_cast<std::size_t>(structure.communicator().max(most_dofs));
       MatrixEntries acts_on;
       for (std::size_t i = 0; i < constraints.size(); ++i)
         for (const std::vector<Term> *const form : constraints[i].forms())
           for (const Term &term : *form)
-            acts_on.add(i, structure.number(term.substructure),
-                        structure[term.substructure].is_lumped());
+          {
+            const bool is_lumped = structure[term.substructure].is_lumped();
+            for (const unsigned int dof : term.form.index)
+              acts_on.add(i, structure.number(term.substructure) * stride + (is_lumped ? dof : 0),
+                          is_lumped);
+          }
       gather(structure.communicator(), acts_on);
       std::vector<std::vector<std::size_t>> ends(constraints.size());
       std::vector<char> is_shared(constraints.size(), 0);
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        is_shared[i] = constraints[i].cone.may_open() && !constraints.slides(i);
+        is_shared[i] = constraints[i].cone.may_open() && constraints[i].spring.is_rigid() &&
+                       !constraints.slides(i);
       for (std::size_t e = 0; e < acts_on.size(); ++e)
       {
         ends[acts_on.row[e]].push_back(acts_on.column[e]);

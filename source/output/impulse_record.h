@@ -17,8 +17,8 @@ namespace taut
    * runs in other steps: a contact may be shorter than an interval between samples. A long run
    * keeps every second end, fourth end, and so on.
    *
-   * Three or more unilateral constraints between the same lumped bodies may share an impulse in any
-   * way, as the legs of a box do. Their sum counts.
+   * Three or more rigid unilateral constraints on the same DoFs of lumped bodies may share an
+   * impulse in any way, as the legs of a box do. Their sum counts.
    */
   class ImpulseRecord
   {

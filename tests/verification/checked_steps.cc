@@ -82,6 +82,44 @@ TEST(CheckedSteps, legs_of_a_box_share_an_impulse)
   EXPECT_FALSE(has(log, "the impulse of 'legs")) << log;
 }
 
+// A stiff stop a little before a rigid one, and a soft one on another mass: each has an impulse of
+// its own, of which the step gets a tenth wrong.
+TEST(CheckedSteps, stops_of_their_own_share_nothing)
+{
+  const std::string log =
+      log_of("Gravity = 0, 0; Start = given\n"
+             "Mass a: Motions = y; Mass = 2.65; Initial velocity = 0, -99.8, 0\n"
+             "Mass b: Position = 0, 48.1; Motions = y; Mass = 4.91; Initial velocity = 0, -214, 0\n"
+             "Spring k: From = a; To = b; Stiffness = 456\n"
+             "Link rigid: Type = stop; From = ground; To = a; Direction = 0, 1; Gap = 4.64\n"
+             "Link stiff: Type = stop; From = ground; To = a; Direction = 0, 1; Gap = 4.55;\n"
+             "  Stiffness = 3.36e6\n"
+             "Link soft: Type = stop; From = ground; To = b; Direction = 0, 1; Gap = 0.352;\n"
+             "  Stiffness = 24.4\n"
+             "Time: Step = 2.31e-4; End = 0.105567\n");
+  EXPECT_TRUE(has(log, "Warning: the step is too long: the impulse of ")) << log;
+}
+
+// A bar hits a wall with nodes that gave their mass away: places of their own are no motion of a
+// scheme, and the impulse is exact, 200 N s.
+TEST(CheckedSteps, a_wave_of_mass_reduced_nodes_is_no_error)
+{
+  for (const Overrides &mass : {Overrides{"Network/Wire bar/Mass matrix=reduced"},
+                                Overrides{"Time/Mass redistribution=mass"}})
+    for (const char *const step : {"5e-4", "1e-4"})
+    {
+      Session session(TAUT_PRM_FOLDER "/bar_on_wall.prm",
+                      mass + Overrides{"Time/Scheme=automatic", std::string("Time/Step=") + step});
+      double impulse = 0.;
+      session.run([&](const taut::StepView &view)
+                  { impulse += view.state.multiplier[0] * view.state.last_step; });
+      EXPECT_NEAR(figure("impulse of a bar on a wall", impulse, "N s"), 200., 1.);
+      EXPECT_FALSE(has(session.log(), "Warning: the step is too long")) << session.log();
+      EXPECT_LT(reported(session.log()), 3e-3);
+      EXPECT_GE(reported(session.log()), 0.);
+    }
+}
+
 TEST(CheckedSteps, a_long_adaptive_run_has_an_estimate)
 {
   double error = 0.;
