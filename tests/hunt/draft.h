@@ -66,6 +66,7 @@ namespace hunt
   HuntScene wire_on_rigid_stop(Draft draft);
   HuntScene moving_contact(Draft draft);
   HuntScene moving_support(Draft draft);
+  HuntScene moving_strip(Draft draft);
 
   /// A sine of one frequency for a prescribed place.
   std::string given_place(Draft &draft);

@@ -20,6 +20,10 @@ namespace
   /// stops whose impulse is off by 2.03 and 2.07 %.
   constexpr double silent_of_given = .002;
 
+  /// The same of compound scenes: half of them are strips, of which a warning of contact energy
+  /// says more than it has to.
+  constexpr double most_alarms_of_compound = .12;
+
   constexpr unsigned long default_scenes = 100, default_seed = 1;
 
   unsigned long from_environment(const char *name, const unsigned long otherwise)
@@ -161,7 +165,8 @@ namespace
         << "see " << path;
     EXPECT_EQ(count(Verdict::crashed), 0.) << "see " << path;
     EXPECT_GE(agreed + alarms, least_agreed * (n - undecided));
-    EXPECT_LE(alarms, most_alarms * (agreed + alarms));
+    EXPECT_LE(alarms, (field == hunt::Field::compound ? most_alarms_of_compound : most_alarms) *
+                          (agreed + alarms));
     EXPECT_LE(undecided, most_undecided * n);
   }
 } // namespace
@@ -174,4 +179,9 @@ TEST(Hunt, no_answer_is_silent_and_wrong)
 TEST(Hunt, given_motions_and_rotations)
 {
   hunt_in(hunt::Field::given, "given_");
+}
+
+TEST(Hunt, laws_with_dampers_and_strips)
+{
+  hunt_in(hunt::Field::compound, "compound_");
 }

@@ -135,8 +135,6 @@ namespace hunt
             (view.report.is_mean(i) ? N : .5 * (N + multiplier[i])) * view.state.last_step;
         multiplier[i] = N;
       }
-    if (n_steps++ % stride != 0)
-      return;
     const Vector u = model->displacement(view);
     Sample sample = {view.state.time, model->places(u), impulse,
                      model->kinetic(model->velocity(view)), model->potential(u)};
@@ -178,9 +176,24 @@ namespace hunt
       return history;
     }
 
-    /// The program with a part of the step, by a scheme that 'automatic' did not take.
-    History other_scheme(const HuntScene &scene, const std::size_t parts, const double end,
-                         const std::string &chosen)
+    /// The sample between two others.
+    Sample between(const Sample &a, const Sample &b, const double time)
+    {
+      const double part = b.time > a.time ? (time - a.time) / (b.time - a.time) : 1.;
+      const auto mix = [&](const double x, const double y) { return x + part * (y - x); };
+      Sample result = {time, a.place, a.impulse, mix(a.kinetic, b.kinetic),
+                       mix(a.potential, b.potential)};
+      for (std::size_t i = 0; i < a.place.size(); ++i)
+        result.place[i] = mix(a.place[i], b.place[i]);
+      for (std::size_t i = 0; i < a.impulse.size(); ++i)
+        result.impulse[i] = mix(a.impulse[i], b.impulse[i]);
+      return result;
+    }
+
+    /// The program with a part of the step, by a scheme that 'automatic' did not take, at these
+    /// times as far as it comes. Contacts may divide its steps, and those of the run.
+    History other_scheme(const HuntScene &scene, const std::size_t parts,
+                         const std::vector<double> &times, const std::string &chosen)
     {
       const bool took_alpha = chosen.find("(automatic): generalised-alpha") != std::string::npos;
       verification::Session session(
@@ -188,10 +201,20 @@ namespace hunt
           {std::string("Time.Scheme=") + (took_alpha ? "Newmark" : "BDF2"),
            "Time.Mass redistribution=no", "Time.Allow unsuitable scheme=true",
            "Time.Allow energy gain=true", "Time.Step=" + verification::number(scene.step / parts),
-           "Time.End=" + verification::number(end)});
-      Recorder recorder(scene.frequency, parts);
+           "Time.End=" + verification::number(times.back())});
+      Recorder recorder(scene.frequency);
       session.run(std::ref(recorder));
-      return recorder.history;
+      const History &found = recorder.history;
+      History result;
+      std::size_t k = 1;
+      for (const double time : times)
+      {
+        while (k + 1 < found.size() && found[k].time < time)
+          ++k;
+        if (time <= found[k].time * (1. + 1e-9))
+          result.push_back(between(found[k - 1], found[k], time));
+      }
+      return result;
     }
   } // namespace
 
@@ -218,8 +241,8 @@ namespace hunt
       }
       else
       {
-        result.history = other_scheme(scene, fine, times.back(), chosen);
-        other = other_scheme(scene, coarse, times.back(), chosen);
+        result.history = other_scheme(scene, fine, times, chosen);
+        other = other_scheme(scene, coarse, times, chosen);
       }
       const Difference d = difference(result.history, other);
       result.has_places = d.place < sure * place_bound;

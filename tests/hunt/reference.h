@@ -38,11 +38,7 @@ namespace hunt
   class Recorder
   {
   public:
-    /// Keeps every @p stride-th step.
-    explicit Recorder(double frequency, std::size_t stride = 1)
-        : frequency(frequency), stride(stride)
-    {
-    }
+    explicit Recorder(double frequency) : frequency(frequency) {}
     void operator()(const taut::StepView &view);
 
     History history;
@@ -50,7 +46,6 @@ namespace hunt
 
   private:
     double frequency;
-    std::size_t stride, n_steps = 0;
     std::vector<double> impulse, multiplier;
   };
 } // namespace hunt

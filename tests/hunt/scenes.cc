@@ -128,25 +128,42 @@ namespace hunt
       return draft.finish(step_decades, 1.5, 4.);
     }
 
-    HuntScene law(Draft draft)
+    /// A stop with a law of up to so many decades of stiffness and steps, with more words behind
+    /// it.
+    HuntScene stop_with_law(Draft draft, const std::string &more, const double most_decades,
+                            const double decades)
     {
       const Scales &s = draft.scales;
       add_chain(draft, draft.random.integer(1, 2), draft.random.chance(.5));
-      const double k = s.k() * draft.random.decades(-1, 6), u = s.l / std::sqrt(k / s.k());
+      const double k = s.k() * draft.random.decades(-1, most_decades),
+                   u = s.l / std::sqrt(k / s.k());
       if (draft.random.chance(.5))
       {
         const double f1 = .3 * k * u, f2 = f1 + .7 * u * k * draft.random.decades(-1, 1.5);
         add_stop(draft, "floor", "m0",
                  "Law = table; Law points = " + number(short_number(.3 * u)) + ": " +
                      number(short_number(f1)) + ", " + number(short_number(u)) + ": " +
-                     number(short_number(f2)));
+                     number(short_number(f2)) + more);
       }
       else
         add_stop(draft, "floor", "m0",
                  "Law = formula; Law formula = " + number(short_number(k)) + "*d + " +
                      number(short_number(k / (u * u))) +
-                     "*d^3; Law range = " + number(short_number(10. * u)));
-      return draft.finish(step_decades, 1.5, 4.);
+                     "*d^3; Law range = " + number(short_number(10. * u)) + more);
+      return draft.finish(decades, 1.5, 4.);
+    }
+
+    HuntScene law(Draft draft)
+    {
+      return stop_with_law(draft, "", 6., step_decades);
+    }
+
+    HuntScene law_with_damper(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      draft.scene.kind = ReferenceKind::program;
+      const std::string damper = "; Damping = " + draft.draw_decades(std::sqrt(s.k() * s.m), -2, 1);
+      return stop_with_law(draft, damper, 3., 2.);
     }
 
     HuntScene adaptive(Draft draft)
@@ -227,6 +244,9 @@ namespace hunt
                                           {"moving base", moving_base},
                                           {"moving support", moving_support}};
 
+    const std::vector<Family> of_compound = {{"law with damper", law_with_damper},
+                                             {"moving strip", moving_strip}};
+
     const std::vector<Family> of_contacts = {{"smooth masses", smooth_masses},
                                              {"elastic stop", elastic_stop},
                                              {"rigid stop", rigid_stop},
@@ -245,7 +265,9 @@ namespace hunt
   {
     const std::vector<Family> &families_of(const Field field)
     {
-      return field == Field::contacts ? of_contacts : of_given;
+      return field == Field::contacts ? of_contacts
+             : field == Field::given  ? of_given
+                                      : of_compound;
     }
   } // namespace
 

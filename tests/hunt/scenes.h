@@ -39,7 +39,8 @@ namespace hunt
   enum class Field
   {
     contacts, ///< masses, wires and links
-    given     ///< prescribed motions, rotations
+    given,    ///< prescribed motions, rotations
+    compound  ///< laws with dampers, strips
   };
 
   /// Names of the families, in the order of the table.

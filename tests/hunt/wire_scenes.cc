@@ -98,6 +98,39 @@ namespace hunt
     return draft.finish(2., 1., 2.5);
   }
 
+  /// A mass that is pushed against two wires side by side and moves along them.
+  HuntScene moving_strip(Draft draft)
+  {
+    const Scales &s = draft.scales;
+    const double length = short_number(100. * s.l), mu = s.m / length,
+                 tension = mu * length * length / (s.t * s.t);
+    draft.line() << "Gravity = 0, 0";
+    for (const std::string &wire : {std::string("one"), std::string("two")})
+    {
+      const double z = wire == "one" ? 0. : s.l;
+      draft.line() << "Wire " << wire << ": From = 0, 0, " << z << "; To = " << length << ", 0, "
+                   << z << "; Components = beam; Mass per length = " << draft.draw(mu, .5, 2.)
+                   << "; Tension = " << draft.draw(tension, .5, 2.) << "; Bending stiffness = "
+                   << draft.draw_decades(tension * length * length, -3, -1)
+                   << "; Element size = " << length / draft.random.integer(4, 8);
+      draft.line() << "Support ends " << wire << ": Wire = " << wire << "; Positions = 0, "
+                   << length;
+    }
+    draft.line() << "Mass head: Position = " << .2 * length << ", " << -s.l
+                 << "; Motions = y; Mass = " << draft.draw_decades(s.m, -1, 0);
+    draft.line() << "Load lift: On = head; Direction = 0, 1; Magnitude = "
+                 << draft.draw(s.f(), 1, 5);
+    draft.line() << "Link collector: Type = sliding contact; From = head; To = one @ "
+                 << .2 * length << ", two @ " << .2 * length
+                 << "; Direction = 0, 1; Faster than waves = true; Speed = "
+                 << short_number(.2 * length / s.t);
+    if (draft.random.chance(.7))
+      draft.line() << "Link collector: Stiffness = " << draft.draw_decades(s.k(), 0, 5);
+    draft.line() << "Statistics: Filter frequency = 0";
+    draft.scene.kind = ReferenceKind::program;
+    return draft.finish(2., 1., 2.5);
+  }
+
   /// A wire whose end is moved, over a stop or free.
   HuntScene moving_support(Draft draft)
   {
