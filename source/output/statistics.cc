@@ -323,18 +323,19 @@ namespace taut
             {"mean reaction", f.unit, in_window(f.window.mean)}};
   }
 
-  std::vector<Statistics::Figure> Statistics::figures_of(const SpannedWire &wire,
-                                                         const Span &span) const
+  std::vector<Statistics::Figure>
+  Statistics::figures_of(const SpannedWire &wire, const Span &span,
+                         const std::vector<ContactRecord> &records) const
   {
     double n_slackenings = 0.;
     for (const LinkQuantities &link : links)
       if (std::count(span.droppers.begin(), span.droppers.end(), link.name) > 0)
         n_slackenings += link.dropper.n_slackenings;
     std::vector<Figure> list = {{"sag", "m", span.sag}, {"slackenings", "1", n_slackenings}};
-    for (const Contact &contact : contacts)
-      if (contact.wire == wire.wire)
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      if (const Contact &contact = contacts[c]; contact.wire == wire.wire)
       {
-        const SpanForce f = SpanForce::of(span, judged(contact), parameters);
+        const SpanForce f = SpanForce::of(span, records[c], parameters);
         const Moments &m = f.moments;
         for (const auto &[name, value] :
              {std::pair("mean", m.mean), std::pair("standard deviation", m.deviation),
@@ -392,9 +393,12 @@ namespace taut
       list.push_back({{"links", link.name}, figures_of(link)});
     for (const SupportFigures::Figures &support : supports.of_supports())
       list.push_back({{"supports", support.name}, figures_of(support)});
+    std::vector<ContactRecord> records; // filtered once for all spans
+    for (const Contact &contact : contacts)
+      records.push_back(spanned.empty() ? ContactRecord() : judged(contact));
     for (const SpannedWire &wire : spanned)
       for (const Span &span : wire.spans)
-        list.push_back({{"spans", span.name}, figures_of(wire, span)});
+        list.push_back({{"spans", span.name}, figures_of(wire, span, records)});
     return list;
   }
 

@@ -174,8 +174,10 @@ namespace taut
     /// Bands of frequency, losses by duration and the height of a contact.
     std::vector<Figure> details_of(const Contact &contact) const;
 
-    /// Sag, slackenings of the droppers that hold it, and forces of the contacts on its wire.
-    std::vector<Figure> figures_of(const SpannedWire &wire, const Span &span) const;
+    /// Sag, slackenings of the droppers that hold it, and forces of the contacts on its wire from
+    /// the judged() record of each contact.
+    std::vector<Figure> figures_of(const SpannedWire &wire, const Span &span,
+                                   const std::vector<ContactRecord> &records) const;
 
     std::vector<double> expected_range(const std::string &quantity) const;
 
