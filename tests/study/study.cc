@@ -207,6 +207,19 @@ Quantity end: Of = place; Quantity = last
       << log.str();
 }
 
+namespace
+{
+  /// Head and first two lines.
+  std::array<std::string, 3> table_of_a_sweep()
+  {
+    std::istringstream table(verification::file_text("results/sweep/sweep.csv"));
+    std::array<std::string, 3> lines;
+    for (std::string &line : lines)
+      std::getline(table, line);
+    return lines;
+  }
+} // namespace
+
 // One line for each case, whose heads have the units of the help and whose messages have the line
 // of the values.
 TEST_F(StudyTest, a_sweep_has_units_in_its_heads_and_lines_of_the_file_in_its_messages)
@@ -219,11 +232,7 @@ Sweep/Parameter scheme: Entries = Time/Scheme; Values = Newmark, Euler
 Sweep/Parameter both: Entries = Time/Step, Network/Mass block/Inertia; Values = 0.01, 0.02
 )");
   taut::Sweep("scene.prm", {}, taut::Communicator(), log).run();
-  std::istringstream table(verification::file_text("results/sweep/sweep.csv"));
-  std::string head, first, second;
-  std::getline(table, head);
-  std::getline(table, first);
-  std::getline(table, second);
+  const auto [head, first, second] = table_of_a_sweep();
   EXPECT_EQ(head.rfind("case,mass [kg],\"k [N/m, N m/rad]\",scheme,both,", 0), 0u) << head;
   EXPECT_EQ(first.rfind("1,2,200,Newmark,0.01,", 0), 0u) << first;
   EXPECT_TRUE(has(second, "scene.prm:")) << second;
@@ -237,11 +246,7 @@ TEST_F(StudyTest, a_sweep_says_which_cases_warn)
                           "Sweep: Parameters = step\n"
                           "Sweep/Parameter step: Entries = Time/Step; Values = 0.01, 1e-4\n");
   taut::Sweep("scene.prm", {}, taut::Communicator(), log).run();
-  std::istringstream table(verification::file_text("results/sweep/sweep.csv"));
-  std::string head, first, second;
-  std::getline(table, head);
-  std::getline(table, first);
-  std::getline(table, second);
+  const auto [head, first, second] = table_of_a_sweep();
   const auto ends = [](const std::string &line, const std::string &tail)
   { return line.size() > tail.size() && line.substr(line.size() - tail.size()) == tail; };
   EXPECT_TRUE(ends(head, ",balance [1],warnings,message")) << head;
