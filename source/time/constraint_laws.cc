@@ -13,9 +13,13 @@ namespace taut
     /// roundings, and the default Contact tolerance. Rounding may keep it between both; the
     /// residuals of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
+
+    /// A law of n pieces takes at most n linearisations on a single row, and tables have some tens
+    /// of pieces. A row that needs more goes to and fro, which the residuals of the step show.
     constexpr int most_linearisations = 200;
 
-    /// Part of the last residual above which the next one is rounding.
+    /// Part of the last residual above which the next one is rounding: Newton's method near its end
+    /// squares residuals, and far from it they are above `stagnated`.
     constexpr double not_closer = .9;
 
     /// Lower bound of the slope of a law in its linearisation, over its largest stiffness k. The

@@ -34,7 +34,8 @@ namespace taut
   private:
     /// Steps of a contact with a damper for a rebound within a percent: a number in the time of a
     /// contact without damper, and more in proportion to the part of the critical damping. A strong
-    /// damper acts faster than the spring.
+    /// damper acts faster than the spring. Measured: restitution within 2 % at
+    /// zeta = 0.02, 0.1 and 0.3 (ResolvedContacts.a_link_with_a_damper_is_met_by_shorter_steps).
     static constexpr double steps_of_a_damped_contact = 16., more_by_damping = 32.;
 
     /// With a part of the largest stiffness: a softer spring has longer contacts, and its damper is

@@ -10,7 +10,9 @@ namespace taut
 {
   namespace
   {
-    /// Part of F_ii above which S fades the projection of elastic constraints out.
+    /// Part of F_ii above which S fades the projection of elastic constraints out. There the
+    /// contact of a mass with the spring lasts 0.9 steps: S / F_ii = 4 / (omega step)^2. Stiffer
+    /// springs act like a rigid constraint, softer ones are resolved by steps.
     constexpr double fading = .3;
 
     /// Most coefficients whose flexibilities are kept: more than there are lengths of adaptive

@@ -16,6 +16,10 @@ namespace taut
     /// the default Contact tolerance. If rounding keeps the error above it, the balance of the step
     /// shows the error. A step that needs more iterations is halved.
     constexpr NewtonConvergence::Limits limits_of_step = {1e-9, 1e-5, 2};
+
+    /// Iterations that a whole step may take. Near its end Newton's method doubles the digits, and
+    /// five iterations give all of them; one that needs 30 is far off, and two halves of the step
+    /// take less.
     constexpr int most_in_step = 30;
 
     /// Iterations up to which a tangent is kept, by the rate of convergence, also for the next

@@ -12,7 +12,8 @@ namespace taut
   namespace
   {
     /// Iterative refinement ends where the error of the closed constraints is a few roundings, or
-    /// here.
+    /// where it no longer falls. Each gains at least the six digits that FactoredStructure leaves:
+    /// two are enough, one more sees that the error stays.
     constexpr double rounding = 1e-15;
     constexpr int most_refinements = 3;
 

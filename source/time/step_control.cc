@@ -18,12 +18,14 @@ namespace taut
 {
   namespace
   {
-    /// Largest number of halvings of a step without convergence of Newton's method, and for a
-    /// contact with a damper.
+    /// Largest number of halvings of a step without convergence of Newton's method: what does not
+    /// converge with a 256th of the step is no matter of the step. For a contact with a damper: a
+    /// millionth, as its step is known from its stiffness and mass.
     constexpr unsigned int most_halvings = 8, most_for_contacts = 20;
 
     /// Number of steps with this part of the tolerance after which the length doubles: twice the
-    /// step has 2^3 = 8 times the error of smooth motions.
+    /// step has 2^3 = 8 times the error of smooth motions, 0.8 of the tolerance. Two, as the error
+    /// of one step may pass through zero.
     constexpr unsigned int most_calm = 2;
     constexpr double calm = .1;
 

@@ -74,7 +74,9 @@ namespace taut
     /// of impulses.
     static constexpr double suspicious_momentum = .02;
 
-    /// Resolution above which the report mentions it.
+    /// Largest force over its largest mean in the window of add_force() above which the report
+    /// mentions it. A choice: a peak that is resolved is less than twice its mean there, as a half
+    /// sine is pi / 2 times its own.
     static constexpr double unresolved = 3.;
 
     /// A contact that left its wire across an end of it and was pressed there.
