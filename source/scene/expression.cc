@@ -269,23 +269,6 @@ namespace taut
         fail({s[i], t});
   }
 
-  bool Expression::is_analytic() const
-  {
-    static const std::set<std::string> analytic = {
-        "s",   "t",   "x",   "y",    "z",    "pi",   "e",    "E",     "_pi", "_e",
-        "exp", "sin", "cos", "sinh", "cosh", "tanh", "atan", "asinh", "erf", "erfc"};
-    if (text.find_first_of("<>=!&|?:;") != std::string::npos || !tables.empty())
-      return false;
-    static const std::regex word("[A-Za-z_][A-Za-z_0-9]*"), number("[0-9.]+([eE][+-]?[0-9]+)?");
-    const std::string words = std::regex_replace(text, number, " ");
-    for (std::sregex_iterator at(words.begin(), words.end(), word), end; at != end; ++at)
-      if (analytic.count(at->str()) == 0)
-        return false;
-    // A power that is no whole number is a root.
-    static const std::regex power("\\^ *([^ 0-9]|[0-9]*\\.)");
-    return !std::regex_search(text, power);
-  }
-
   Expression::Separated Expression::separated() const
   {
     Separated result;

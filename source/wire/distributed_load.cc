@@ -97,15 +97,15 @@ namespace taut
     }
     if (stands)
       return;
-    find_standing_details();
-    smooth = std::make_unique<const SmoothLoad>(magnitude, elements);
     if (const double speed = speed_of_shape(magnitude.formula()); speed > 0.)
     {
       const double begin = elements.front().begin,
                    end = elements.back().begin + elements.back().length;
-      shape =
-          std::make_unique<TravellingShape>(magnitude, speed, end, (end - begin) / elements.size());
+      shape = std::make_unique<TravellingShape>(magnitude, speed, wire_length, begin, end,
+                                                (end - begin) / elements.size());
     }
+    else
+      find_standing_details();
   }
 
   void WireComponent::DistributedLoad::find_standing_details()
@@ -153,16 +153,19 @@ namespace taut
 
   void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const
   {
-    if (smooth && smooth->apply(t, P))
-      return;
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
     for (const Element &element : elements)
     {
-      const bool is_free =
-          shape && shape->is_zero(element.begin, element.begin + element.length, t);
-      const ElementLoad on = is_free ? ElementLoad() : over(element, t, typical);
-      for (unsigned int q = 0; q < ElementLoad::n_points && !is_free; ++q)
+      if (shape)
+        if (const auto known = shape->on(element, t))
+        {
+          for (unsigned int q = 0; q < ElementLoad::n_points && known->size > 0.; ++q)
+            element.shapes[q].add_to(known->values[q], P);
+          continue;
+        }
+      const ElementLoad on = over(element, t, typical);
+      for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
         element.shapes[q].add_to(on.values[q], P);
       if (magnitude.depends_on_time())
         check.add(element, on);

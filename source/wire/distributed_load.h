@@ -3,7 +3,6 @@
 #define taut_distributed_load_h
 
 #include "wire/element_load.h"
-#include "wire/smooth_load.h"
 #include "wire/travelling_shape.h"
 
 #include <taut/wire/wire_component.h>
@@ -16,12 +15,12 @@ namespace taut
 {
   /**
    * A force per length f(s, t), integrated at each call over each element, see LoadIntegral, or by
-   * panels of many elements where it is smooth, see SmoothLoad.
+   * its shape where that travels, see TravellingShape.
    *
-   * For a load that changes with time an element is looked at in one piece, so that a moving load
-   * has to be as wide as this piece sees; a narrower moving load throws EntryError. A narrower load
-   * at rest is found at the set-up, at a few times. Its elements are looked at in fine pieces from
-   * then on.
+   * For another load that changes with time an element is looked at in one piece, so that it has to
+   * be as wide as this piece sees if it moves; a narrower moving load throws EntryError. A narrower
+   * load at rest is found at the set-up, at a few times. Its elements are looked at in fine pieces
+   * from then on.
    */
   class WireComponent::DistributedLoad : public TimeLoad
   {
@@ -44,7 +43,6 @@ namespace taut
     std::string name, origin;
     double wire_length;
     std::vector<Element> elements;
-    std::unique_ptr<const SmoothLoad> smooth; ///< of loads that change along the wire and in time
     std::unique_ptr<const TravellingShape> shape; ///< of loads that travel; none for others
   };
 } // namespace taut

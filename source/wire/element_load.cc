@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace taut
 {
   namespace
   {
-    constexpr unsigned int n_points = 9, n_moments = 4;
+    constexpr unsigned int n_points = 9, n_moments = std::tuple_size<ElementLoad::Moments>::value;
 
     /// Places on (-1, 1): the Gauss points, the middle, and points that leave no gap wider than
     /// 0.34. The outer points are not at the ends, where a formula need not have a value.
@@ -30,19 +31,13 @@ namespace taut
     /// length; higher moments change neither the sum of forces nor the sum of moments.
     constexpr double parts_of_moments[] = {1., .25, 1e-3, 1e-3};
 
-    /// Accepted errors over the tolerance: of an element that keeps its values, of a piece over its
-    /// part of the element, and of a piece with a jump.
-    constexpr double kept = .5 * LoadIntegral::tolerance, smooth = .2 * LoadIntegral::tolerance,
-                     jump = 4e-3 * LoadIntegral::tolerance;
+    /// Accepted errors over the tolerance: of a piece over its part of the element, and of a piece
+    /// with a jump.
+    constexpr double smooth = .2 * LoadIntegral::tolerance, jump = 4e-3 * LoadIntegral::tolerance;
     constexpr double narrowest_piece = 1e-13;
     constexpr unsigned int most_pieces = 1 << 15;
 
-    using Moments = std::array<double, n_moments>;
-
-    constexpr Moments legendre(const double x)
-    {
-      return {1., x, .5 * (3. * x * x - 1.), .5 * x * (5. * x * x - 3.)};
-    }
+    using Moments = ElementLoad::Moments;
 
     /// Difference of the weights of the two rules at each point.
     constexpr std::array<Moments, n_points> weighted_differences()
@@ -50,7 +45,7 @@ namespace taut
       std::array<Moments, n_points> result = {};
       for (unsigned int k = 0; k < n_points; ++k)
         for (unsigned int j = 0; j < n_moments; ++j)
-          result[k][j] = (weights[k] - gauss_weights[k]) * legendre(places[k])[j];
+          result[k][j] = (weights[k] - gauss_weights[k]) * ElementLoad::legendre(places[k])[j];
       return result;
     }
 
@@ -102,7 +97,7 @@ namespace taut
         if (piece.values[k] == 0.)
           continue;
         const double x = 2. * (piece.begin + .5 * piece.width * (1. + places[k])) - 1.;
-        const Moments P = legendre(x);
+        const Moments P = ElementLoad::legendre(x);
         for (unsigned int j = 0; j < n_moments; ++j)
           moments[j] += piece.width * weights[k] * piece.values[k] * P[j];
       }
@@ -163,31 +158,26 @@ namespace taut
     }
   }
 
-  namespace
+  void ElementLoad::take_cubic(const Moments &moments, const double difference)
   {
-    /// Replaces values by the cubic of these moments if their own moments differ by more than the
-    /// tolerance.
-    void take_cubic(const Moments &moments, const double difference, ElementLoad &load)
+    Moments by_values = {};
+    for (unsigned int k = 0; k < n_points; ++k)
     {
-      Moments by_values = {};
-      for (unsigned int k = 0; k < ElementLoad::n_points; ++k)
-      {
-        const Moments P = legendre(places[gauss_points[k]]);
-        for (unsigned int j = 0; j < n_moments; ++j)
-          by_values[j] += gauss_weights[gauss_points[k]] * load.values[k] * P[j];
-      }
-      if (largest_difference(moments, by_values) <= difference)
-        return;
-      load.is_cubic = true;
-      for (unsigned int k = 0; k < ElementLoad::n_points; ++k)
-      {
-        const Moments P = legendre(places[gauss_points[k]]);
-        load.values[k] = 0.;
-        for (unsigned int j = 0; j < n_moments; ++j)
-          load.values[k] += (2. * j + 1.) * moments[j] * P[j];
-      }
+      const Moments P = legendre(places[gauss_points[k]]);
+      for (unsigned int j = 0; j < n_moments; ++j)
+        by_values[j] += gauss_weights[gauss_points[k]] * values[k] * P[j];
     }
-  } // namespace
+    if (largest_difference(moments, by_values) <= difference)
+      return;
+    is_cubic = true;
+    for (unsigned int k = 0; k < n_points; ++k)
+    {
+      const Moments P = legendre(places[gauss_points[k]]);
+      values[k] = 0.;
+      for (unsigned int j = 0; j < n_moments; ++j)
+        values[k] += (2. * j + 1.) * moments[j] * P[j];
+    }
+  }
 
   ElementLoad LoadIntegral::over(const double begin, const double h,
                                  const std::array<double, 4> &gauss_places, const double t,
@@ -232,7 +222,7 @@ namespace taut
       refine(begin, h, t, pieces[p], sums);
     const double scale = std::max({load.size, seen_by_fine_pieces * load.largest, typical()});
     load.is_resolved = sums.error <= tolerance * scale;
-    take_cubic(sums.moments, kept * scale, load);
+    load.take_cubic(sums.moments, kept * scale);
     return load;
   }
 } // namespace taut

@@ -2,13 +2,24 @@
 #ifndef taut_element_load_h
 #define taut_element_load_h
 
-#include "wire/smooth_load.h"
+#include <taut/base/linear_form.h>
 #include <taut/scene/expression.h>
 
 #include <array>
 
 namespace taut
 {
+  /// An element of a wire under a load: the forces of unit values at its Gauss points.
+  struct LoadedElement
+  {
+    static constexpr unsigned int n_points = 4;
+
+    std::array<LinearForm, n_points> shapes; ///< weighted
+    std::array<double, n_points> places;     ///< [m]
+    double begin, length;                    ///< [m]
+    unsigned int n_pieces;                   ///< see LoadIntegral
+  };
+
   /**
    * A load over one element as values at its four Gauss points. They are values of the load if the
    * Gauss rule gives its sum and first moment. Otherwise they are values of the cubic that has the
@@ -18,6 +29,19 @@ namespace taut
   {
     static constexpr unsigned int n_points = LoadedElement::n_points;
     using Values = std::array<double, n_points>;
+
+    /// Means over an element of the load times the Legendre polynomials of degree 0 to 3.
+    using Moments = std::array<double, 4>;
+
+    /// At a place on (-1, 1).
+    static constexpr Moments legendre(const double x)
+    {
+      return {1., x, .5 * (3. * x * x - 1.), .5 * x * (5. * x * x - 3.)};
+    }
+
+    /// Replaces values by those of the cubic with these moments if their own moments differ by more
+    /// than @p difference.
+    void take_cubic(const Moments &moments, double difference);
 
     Values values = {};
     bool is_cubic = false;   ///< values of the cubic, not of the load
@@ -61,6 +85,9 @@ namespace taut
   public:
     /// Error of sum and first moment over the integral of |q|.
     static constexpr double tolerance = 1e-6;
+
+    /// The same for an element that keeps its values at Gauss points.
+    static constexpr double kept = .5 * tolerance;
 
     /// With one initial piece a detail of a fifth of an element is seen anywhere; with fine pieces
     /// a detail of a sixty-fourth.

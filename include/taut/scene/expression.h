@@ -64,10 +64,6 @@ namespace taut
     /// one. Throws as operator().
     void evaluate(const std::vector<double> &s, double t, std::vector<double> &result) const;
 
-    /// True if the formula is made of functions alone that have all derivatives: no tables,
-    /// conditions, magnitudes, roundings or roots.
-    bool is_analytic() const;
-
     /// The formula in s and t as a sum of products of a function of s and one of t, as it is
     /// written, and the rest of it.
     struct Separated;
