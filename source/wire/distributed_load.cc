@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace taut
@@ -155,15 +156,18 @@ namespace taut
   {
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
+    std::optional<TravellingShape::Walk> walk;
+    if (shape)
+      walk.emplace(*shape, t);
+    ElementLoad known;
     for (const Element &element : elements)
     {
-      if (shape)
-        if (const auto known = shape->on(element, t))
-        {
-          for (unsigned int q = 0; q < ElementLoad::n_points && known->size > 0.; ++q)
-            element.shapes[q].add_to(known->values[q], P);
-          continue;
-        }
+      if (walk && walk->on(element, known))
+      {
+        for (unsigned int q = 0; q < ElementLoad::n_points && known.size > 0.; ++q)
+          element.shapes[q].add_to(known.values[q], P);
+        continue;
+      }
       const ElementLoad on = over(element, t, typical);
       for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
         element.shapes[q].add_to(on.values[q], P);

@@ -19,8 +19,8 @@ namespace taut
     constexpr unsigned int elements_in_bin = 16;
 
     /// Places in an element at which the shape is looked at, and at which each polynomial is
-    /// compared with it.
-    constexpr unsigned int samples_in_element = 1000;
+    /// compared with it. A choice: more see narrower details, and cost as much at the set-up.
+    constexpr unsigned int samples_in_element = 250;
     constexpr unsigned int n_samples = elements_in_bin * samples_in_element;
 
     /// Length of a piece with a jump, over an element: what it lacks of a load of a hundredth of an
@@ -30,8 +30,12 @@ namespace taut
     /// Pieces in a bin; a jump takes some forty. With more, the formula oscillates.
     constexpr std::size_t most_in_bin = 4096;
 
-    /// Part of the largest value so far below which a piece is zero: far below rounding.
-    constexpr double negligible = 1e-18;
+    /// Error of a polynomial over the largest value in its bin, or a thousandth of the largest at
+    /// the start: a tenth of what LoadIntegral promises. A piece below this error is zero.
+    constexpr double tolerance = .1 * LoadIntegral::tolerance, least_part = 1e-3;
+
+    /// Places for each element from which the size of a load is known: what is a thousandth of it.
+    constexpr double samples_of_size = 4.;
 
     /// The Chebyshev points of degree 5 on (0, 1), and places between them.
     constexpr double nodes[] = {0.017037086855465856, 0.14644660940672624, 0.37059047744873963,
@@ -75,21 +79,6 @@ namespace taut
     return std::stod(*speeds.begin());
   }
 
-  double TravellingShape::Piece::operator()(const double u) const
-  {
-    const double x = (u - begin) / (end - begin);
-    double result = coefficients.back();
-    for (unsigned int j = n_coefficients - 1; j-- > 0;)
-      result = result * x + coefficients[j];
-    return result;
-  }
-
-  const TravellingShape::Piece &TravellingShape::Bin::at(const double u) const
-  {
-    return *std::prev(std::upper_bound(std::next(pieces.begin()), pieces.end(), u,
-                                       [](const double x, const Piece &p) { return x < p.begin; }));
-  }
-
   TravellingShape::TravellingShape(const Expression &formula, const double speed,
                                    const double wire_length, const double begin, const double end,
                                    const double element_length)
@@ -98,27 +87,30 @@ namespace taut
   {
     for (unsigned int k = 0; k < n_samples; ++k)
       samples[k] = (k + .5) / n_samples;
-    // What is on the wire at the start, and as much behind it, says what is negligible.
-    const std::size_t n_bins = 2 * static_cast<std::size_t>((first - begin) / width + 1.);
-    know(n_bins - 1);
-    for (Bin &bin : bins)
-      for (Piece &piece : bin.pieces)
-        piece.is_zero =
-            piece.is_zero ||
-            std::all_of(std::begin(nodes), std::end(nodes),
-                        [&](const double x) {
-                          return std::fabs(piece(piece.begin + x * (piece.end - piece.begin))) <=
-                                 negligible * largest;
-                        });
+    const double n_bins = std::ceil((first - begin) / width);
+    points.resize(static_cast<std::size_t>(2. * n_bins * elements_in_bin * samples_of_size));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      points[k] = 2. * n_bins * (k + .5) / points.size();
+    try
+    {
+      evaluate(0., points, values);
+      largest = largest_of(values);
+    }
+    catch (const UserError &)
+    {
+      // Places behind the wire may never come onto it. Nothing is negligible then.
+    }
   }
 
-  void TravellingShape::know(const std::size_t bin) const
+  double TravellingShape::largest_of(const std::vector<double> &values) const
   {
-    while (bins.size() <= bin)
-      bins.push_back(look(bins.size()));
+    double result = 0.;
+    for (const double q : values)
+      result = std::max(result, std::fabs(q));
+    return result;
   }
 
-  void TravellingShape::evaluate(const std::size_t bin, const std::vector<double> &u,
+  void TravellingShape::evaluate(const double bin, const std::vector<double> &u,
                                  std::vector<double> &result) const
   {
     places.resize(u.size());
@@ -133,11 +125,8 @@ namespace taut
     try
     {
       evaluate(bin, samples, sampled);
-      double most = 0.;
-      for (const double q : sampled)
-        most = std::max(most, std::fabs(q));
-      largest = std::max(largest, most);
-      result.is_known = resolve(bin, 0., 1., most, result);
+      result.is_known =
+          resolve(bin, 0., 1., std::max(largest_of(sampled), least_part * largest), result);
     }
     catch (const UserError &)
     {
@@ -159,14 +148,13 @@ namespace taut
     for (const double x : checks)
       points.push_back(begin + length * x);
     evaluate(bin, points, values);
+    const double accepted = std::max(tolerance, piece_of_jump / (elements_in_bin * length)) * most;
+    const bool may_be_zero = largest_of(values) <= tolerance * most;
     const std::vector<std::vector<double>> &basis = lagrange_basis();
-    for (unsigned int k = 0; k < n_nodes; ++k)
-    {
-      piece.is_zero = piece.is_zero && std::fabs(values[k]) <= negligible * largest;
+    for (unsigned int k = 0; k < n_nodes && !may_be_zero; ++k)
       for (unsigned int j = 0; j < n_nodes; ++j)
         piece.coefficients[j] += values[k] * basis[k][j];
-    }
-    const double accepted = std::max(tolerance, piece_of_jump / (elements_in_bin * length)) * most;
+    piece.is_zero = may_be_zero;
     const auto fits = [&](const double u, const double q)
     { return std::fabs(piece(u) - q) <= accepted; };
     bool is_resolved = true;
@@ -184,53 +172,93 @@ namespace taut
     return resolve(bin, begin, middle, most, result) && resolve(bin, middle, end, most, result);
   }
 
-  std::optional<ElementLoad> TravellingShape::on(const LoadedElement &element, const double t) const
+  TravellingShape::Walk::Walk(const TravellingShape &shape, const double t)
+      : shape(shape), start((shape.first + shape.speed * t) / shape.width),
+        per_length(1. / shape.width), is_before(t < 0.)
   {
-    if (t < 0.)
-      return {};
-    const auto place = [&](const double s)
-    { return std::max(0., (first + speed * t - s) / width); };
-    const double u0 = place(element.begin + element.length), u1 = place(element.begin);
-    const std::size_t k0 = static_cast<std::size_t>(u0), k1 = static_cast<std::size_t>(u1);
-    know(k1);
-    for (std::size_t k = k0; k <= k1; ++k)
-      if (!bins[k].is_known)
-        return {};
-    ElementLoad result;
-    if (const Piece &piece = bins[k0].at(u0 - k0); u1 - k0 <= piece.end)
-    {
-      for (unsigned int q = 0; q < ElementLoad::n_points && !piece.is_zero; ++q)
-        result.values[q] = piece(place(element.places[q]) - k0);
-      result.size = piece.is_zero ? 0. : 1.;
-      return result;
-    }
+  }
 
+  /// False if the shape is not known there.
+  bool TravellingShape::Walk::move_to(const double u)
+  {
+    const std::size_t k = static_cast<std::size_t>(u);
+    while (shape.bins.size() <= k)
+      shape.bins.push_back(shape.look(shape.bins.size()));
+    if (!shape.bins[k].is_known)
+      return false;
+    const std::vector<Piece> &pieces = shape.bins[k].pieces;
+    if (bin != k)
+      piece = pieces.size() - 1;
+    bin = k;
+    while (pieces[piece].begin + k > u && piece > 0)
+      --piece;
+    while (pieces[piece].end + k <= u && piece + 1 < pieces.size())
+      ++piece;
+    from = pieces[piece].begin + k;
+    to = pieces[piece].end + k;
+    return true;
+  }
+
+  bool TravellingShape::Walk::on(const LoadedElement &element, ElementLoad &load)
+  {
+    load.size = 0.;
+    const double u0 = place(element.begin + element.length), u1 = place(element.begin);
+    if (!(u0 >= from && u1 <= to))
+    {
+      if (is_before || !move_to(u1) || !move_to(u0))
+        return false;
+      for (std::size_t k = bin; k < u1; ++k)
+        if (!shape.bins[k].is_known)
+          return false;
+    }
+    if (u1 > to)
+    {
+      integrate(element, u0, u1, load);
+      return true;
+    }
+    const Piece &own = shape.bins[bin].pieces[piece];
+    if (own.is_zero)
+      return true;
+    for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
+    {
+      load.values[q] = own(place(element.places[q]) - bin);
+      load.size += std::fabs(load.values[q]) / ElementLoad::n_points;
+    }
+    return true;
+  }
+
+  /// Over more than one piece.
+  void TravellingShape::Walk::integrate(const LoadedElement &element, const double u0,
+                                        const double u1, ElementLoad &load)
+  {
     static const dealii::QGauss<1> rule(n_coefficients - 1); // exact for moments up to the third
     ElementLoad::Moments moments = {};
-    for (std::size_t k = k0; k <= k1; ++k)
-      for (const Piece *piece = &bins[k].at(k == k0 ? u0 - k : 0.);
-           piece != bins[k].pieces.data() + bins[k].pieces.size() && piece->begin + k < u1; ++piece)
+    for (std::size_t k = bin, p = piece; k < u1; ++k, p = 0)
+      for (; p < shape.bins[k].pieces.size() && shape.bins[k].pieces[p].begin + k < u1; ++p)
       {
-        const double from = std::max(u0, piece->begin + k), to = std::min(u1, piece->end + k);
-        if (piece->is_zero || to <= from)
+        const Piece &part = shape.bins[k].pieces[p];
+        const double from = std::max(u0, part.begin + k), to = std::min(u1, part.end + k);
+        if (part.is_zero || to <= from)
           continue;
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const double u = from + (to - from) * rule.point(q)[0],
-                       force = (to - from) / (u1 - u0) * rule.weight(q) * (*piece)(u - k);
+                       force = (to - from) / (u1 - u0) * rule.weight(q) * part(u - k);
           const ElementLoad::Moments P = ElementLoad::legendre(1. - 2. * (u - u0) / (u1 - u0));
           for (unsigned int j = 0; j < P.size(); ++j)
             moments[j] += force * P[j];
-          result.size += std::fabs(force);
+          load.size += std::fabs(force);
         }
       }
-    for (unsigned int q = 0; q < ElementLoad::n_points && result.size > 0.; ++q)
+    if (load.size == 0.)
+      return;
+    for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
     {
       const double u = place(element.places[q]);
-      const std::size_t k = static_cast<std::size_t>(u);
-      result.values[q] = bins[k].at(u - k)(u - k);
+      move_to(u);
+      load.values[q] = shape.bins[bin].pieces[piece](u - bin);
     }
-    result.take_cubic(moments, LoadIntegral::kept * result.size);
-    return result;
+    load.take_cubic(moments, LoadIntegral::kept * load.size);
+    move_to(u0);
   }
 } // namespace taut

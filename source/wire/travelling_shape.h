@@ -5,8 +5,9 @@
 #include "wire/element_load.h"
 #include <taut/scene/expression.h>
 
+#include <algorithm>
 #include <array>
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,24 +21,20 @@ namespace taut
    * is looked at once as it comes onto the wire, and kept as polynomials of degree 5 on pieces,
    * which are bisected around kinks and jumps. An element takes its integrals from them.
    *
-   * Bins of some elements are looked at one after the other, at a thousand places for each element:
-   * narrower details may not be seen. What it returns depends on t alone, not on earlier calls.
+   * Bins of some elements are looked at one after the other, at 250 places for each element:
+   * narrower details may not be seen. What an element gets depends on t alone, not on earlier
+   * calls.
    */
   class TravellingShape
   {
   public:
-    /// Error of a polynomial over the largest value in its bin.
-    static constexpr double tolerance = 1e-7;
-
     /// @p formula has this speed, above 0; the elements lie from @p begin to @p end of a wire of
     /// this length and have this mean length [m/s, m].
     TravellingShape(const Expression &formula, double speed, double wire_length, double begin,
                     double end, double element_length);
 
-    /// The load of an element at the time t [s], with its values; its size is 0 where these are.
-    /// Empty if the shape is not known: at times before 0, where the formula has no value, and
-    /// where too many pieces do not resolve it.
-    std::optional<ElementLoad> on(const LoadedElement &element, double t) const;
+    /// The load of elements one after the other along the wire, at one time.
+    class Walk;
 
   private:
     static constexpr unsigned int n_coefficients = 6;
@@ -49,28 +46,56 @@ namespace taut
       bool is_zero;
       std::array<double, n_coefficients> coefficients; ///< of powers of the part of the piece
 
-      double operator()(double u) const;
+      double operator()(double u) const
+      {
+        const double x = (u - begin) / (end - begin);
+        double result = coefficients.back();
+        for (unsigned int j = n_coefficients - 1; j-- > 0;)
+          result = result * x + coefficients[j];
+        return result;
+      }
     };
     struct Bin
     {
       bool is_known = false;
       std::vector<Piece> pieces;
-
-      const Piece &at(double u) const;
     };
 
     Bin look(std::size_t bin) const;
-    bool resolve(std::size_t bin, double begin, double end, double largest, Bin &result) const;
-    void know(std::size_t bin) const;
-    void evaluate(std::size_t bin, const std::vector<double> &u, std::vector<double> &values) const;
+    bool resolve(std::size_t bin, double begin, double end, double most, Bin &result) const;
+    void evaluate(double bin, const std::vector<double> &u, std::vector<double> &values) const;
+    double largest_of(const std::vector<double> &values) const;
 
     Expression formula;
-    double speed, width, first; ///< first: the end of the first bin at t = 0 [m]
+    double speed, width, first;  ///< first: the end of the first bin at t = 0 [m]
+    double largest = 0.;         ///< absolute value on the wire and as far behind it at the start
+    std::vector<double> samples; ///< places in a bin
 
     mutable std::vector<Bin> bins;
-    mutable double largest = 0.; ///< of the absolute values in the bins so far
-    std::vector<double> samples; ///< places in a bin
     mutable std::vector<double> sampled, places, points, values;
+  };
+
+  class TravellingShape::Walk
+  {
+  public:
+    /// At the time t [s]; @p shape is kept by reference.
+    Walk(const TravellingShape &shape, double t);
+
+    /// The load of the next element, with its values; its size is 0 where these are. False if the
+    /// shape is not known there: at times before 0, where the formula has no value, and where too
+    /// many pieces do not resolve it.
+    bool on(const LoadedElement &element, ElementLoad &load);
+
+  private:
+    double place(const double s) const { return std::max(0., start - s * per_length); }
+    bool move_to(double u);
+    void integrate(const LoadedElement &element, double u0, double u1, ElementLoad &load);
+
+    const TravellingShape &shape;
+    double start, per_length; ///< places of s = 0 and of a metre, in bins
+    bool is_before;
+    std::size_t bin = 0, piece = 0; ///< of the last place
+    double from = 0., to = -1.;     ///< the ends of its piece
   };
 } // namespace taut
 
