@@ -4,6 +4,7 @@
 #include "base/gather_entries.h"
 #include "base/pivots.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -41,16 +42,19 @@ namespace taut
             if (is_changed[k])
               add_responses(k, active);
         });
-    FZ = {};
+    MatrixEntries entries;
     for (const MatrixEntries &response : responses)
       for (std::size_t e = 0; e < response.size(); ++e)
-        FZ.add(response.row[e], response.column[e], response.value[e]);
-    gather(solvers.structure().communicator(), FZ);
+        entries.add(response.row[e], response.column[e], response.value[e]);
+    gather(solvers.structure().communicator(), entries);
     for (std::size_t i = 0; i < Z.size(); ++i)
       for (const auto &[k, z] : Z[i])
         if (compliance[i] > 0.)
-          FZ.add(i, k, compliance[i] * z);
-    FZ.compress();
+          entries.add(i, k, compliance[i] * z);
+    entries.compress();
+    FZ.assign(active.size(), {});
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      FZ[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
     factor();
   }
 
@@ -99,14 +103,15 @@ namespace taut
       return;
     SymmetricEntries entries;
     std::vector<double> diagonal(n_columns, 0.);
-    for (std::size_t e = 0; e < FZ.size(); ++e)
-      for (const auto &[k, z] : Z[FZ.row[e]])
-        if (k <= static_cast<std::size_t>(FZ.column[e]))
-        {
-          entries.add(FZ.column[e], k, z * FZ.value[e]);
-          if (k == static_cast<std::size_t>(FZ.column[e]))
-            diagonal[k] += z * FZ.value[e];
-        }
+    for (std::size_t i = 0; i < FZ.size(); ++i)
+      for (const auto &[column, value] : FZ[i])
+        for (const auto &[k, z] : Z[i])
+          if (k <= column)
+          {
+            entries.add(column, k, z * value);
+            if (k == column)
+              diagonal[k] += z * value;
+          }
     for (std::size_t k = 0; k < n_columns; ++k)
       // Rigid body modes of a group without active rows would make E singular and the columns of Z
       // dependent; their part in Z E^-1 Z^T is zero.
@@ -115,35 +120,52 @@ namespace taut
     E.factor(n_columns, entries, 0.);
   }
 
-  void CoarseSpace::solve(const std::vector<double> &r, std::vector<double> &x,
+  namespace
+  {
+    using CoarseRow = std::vector<std::pair<std::size_t, double>>;
+
+    /// A^T x of all ranks for a matrix by rows, of which x has the owned ones.
+    void transposed_product(const RowMap &rows, const std::vector<CoarseRow> &A,
+                            const std::vector<double> &x, std::vector<double> &result)
+    {
+      std::fill(result.begin(), result.end(), 0.);
+      for (std::size_t p = 0; p < x.size(); ++p)
+        for (const auto &[k, a] : A[rows.owned()[p]])
+          result[k] += a * x[p];
+      rows.communicator().sum(result);
+    }
+
+    /// Adds factor * A y on owned rows.
+    void add_product(const RowMap &rows, const std::vector<CoarseRow> &A, const double factor,
+                     const std::vector<double> &y, std::vector<double> &x)
+    {
+      for (std::size_t p = 0; p < x.size(); ++p)
+        for (const auto &[k, a] : A[rows.owned()[p]])
+          x[p] += factor * a * y[k];
+    }
+  } // namespace
+
+  void CoarseSpace::solve(const RowMap &rows, const std::vector<double> &r, std::vector<double> &x,
                           std::vector<double> &Fx) const
   {
     x.assign(r.size(), 0.);
     Fx.assign(r.size(), 0.);
     if (n_columns == 0)
       return;
-    amplitude.assign(n_columns, 0.);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      for (const auto &[k, z] : Z[i])
-        amplitude[k] += z * r[i];
+    amplitude.resize(n_columns);
+    transposed_product(rows, Z, r, amplitude);
     E.solve(amplitude);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      for (const auto &[k, z] : Z[i])
-        x[i] += z * amplitude[k];
-    for (std::size_t e = 0; e < FZ.size(); ++e)
-      Fx[FZ.row[e]] += FZ.value[e] * amplitude[FZ.column[e]];
+    add_product(rows, Z, 1., amplitude, x);
+    add_product(rows, FZ, 1., amplitude, Fx);
   }
 
-  void CoarseSpace::project(std::vector<double> &z) const
+  void CoarseSpace::project(const RowMap &rows, std::vector<double> &z) const
   {
     if (n_columns == 0)
       return;
-    amplitude.assign(n_columns, 0.);
-    for (std::size_t e = 0; e < FZ.size(); ++e)
-      amplitude[FZ.column[e]] += FZ.value[e] * z[FZ.row[e]];
+    amplitude.resize(n_columns);
+    transposed_product(rows, FZ, z, amplitude);
     E.solve(amplitude);
-    for (std::size_t i = 0; i < z.size(); ++i)
-      for (const auto &[k, value] : Z[i])
-        z[i] -= value * amplitude[k];
+    add_product(rows, Z, -1., amplitude, z);
   }
 } // namespace taut

@@ -34,11 +34,12 @@ namespace taut
     /// Number of columns of Z.
     std::size_t size() const { return n_columns; }
 
-    /// Computes x = Z E^-1 Z^T r and F x.
-    void solve(const std::vector<double> &r, std::vector<double> &x, std::vector<double> &Fx) const;
+    /// Computes x = Z E^-1 Z^T r and F x, on owned rows.
+    void solve(const RowMap &rows, const std::vector<double> &r, std::vector<double> &x,
+               std::vector<double> &Fx) const;
 
-    /// z = P^T z = z - Z E^-1 (F Z)^T z.
-    void project(std::vector<double> &z) const;
+    /// z = P^T z = z - Z E^-1 (F Z)^T z, on owned rows.
+    void project(const RowMap &rows, std::vector<double> &z) const;
 
   private:
     void set_columns(const std::vector<char> &active);
@@ -54,7 +55,7 @@ namespace taut
     using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry
     std::vector<Row> Z;
     std::vector<MatrixEntries> responses; ///< B_k^T A_k^-1 B_k Z of each body of this rank
-    MatrixEntries FZ;
+    std::vector<Row> FZ;
     SparseCholesky E;
     mutable std::vector<double> amplitude;
   };

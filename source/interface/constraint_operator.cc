@@ -21,6 +21,19 @@ namespace taut
       add(i);
   }
 
+  std::vector<std::size_t> BodyConstraints::rows() const
+  {
+    std::vector<char> is_held(constraints.size(), 0);
+    for (const std::vector<Entry> &of_body : entries)
+      for (const Entry &entry : of_body)
+        is_held[entry.constraint] = 1;
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < is_held.size(); ++i)
+      if (is_held[i])
+        result.push_back(i);
+    return result;
+  }
+
   void BodyConstraints::add(const std::size_t constraint)
   {
     for (const auto &[k, form, of] : constraints[constraint].terms)

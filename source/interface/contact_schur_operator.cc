@@ -4,15 +4,40 @@
 #include <taut/interface/contact_schur_operator.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace taut
 {
   ContactSchurOperator::ContactSchurOperator(const Lasting<FactoredStructure> solvers,
                                              const Lasting<BodyConstraints> body_constraints,
                                              const std::size_t n_constraints)
-      : ConstraintOperator(n_constraints), solvers(solvers), body_constraints(body_constraints),
-        compliance(n_constraints, 0.), shift(n_constraints, 0.), active(n_constraints, 1)
+      : ConstraintOperator(std::make_shared<const RowMap>(
+            static_cast<const FactoredStructure &>(solvers).structure().communicator(),
+            static_cast<const BodyConstraints &>(body_constraints).rows(), n_constraints)),
+        solvers(solvers), body_constraints(body_constraints), compliance(n_constraints, 0.),
+        shift(n_constraints, 0.), active(n_constraints, 1), position(n_constraints, 0)
   {
+    set_positions();
+  }
+
+  void ContactSchurOperator::set_positions()
+  {
+    const std::vector<std::size_t> &held = rows().held();
+    for (std::size_t p = 0; p < held.size(); ++p)
+      position[held[p]] = p;
+  }
+
+  void ContactSchurOperator::update_rows()
+  {
+    std::vector<std::size_t> held = body_constraints.rows();
+    const auto holds = [&](const std::size_t i)
+    { return std::binary_search(rows().held().begin(), rows().held().end(), i); };
+    if (!rows().communicator().any(!std::all_of(held.begin(), held.end(), holds)))
+      return;
+    own_rows =
+        std::make_shared<const RowMap>(rows().communicator(), std::move(held), active.size());
+    set_positions();
   }
 
   void ContactSchurOperator::unrestrict()
@@ -26,27 +51,24 @@ namespace taut
       shift[i] = factor * diagonal[i];
   }
 
-  void ContactSchurOperator::apply(const double *x, double *y) const
+  /// Motions of held rows under their multipliers.
+  void ContactSchurOperator::add_solves() const
   {
-    // An iteration from zero begins with this product.
-    if (std::all_of(x, x + active.size(), [](const double value) { return value == 0.; }))
-    {
-      std::fill(y, y + active.size(), 0.);
-      return;
-    }
-    ++applications;
-    share.assign(active.size(), 0.);
+    motion.assign(multiplier.size(), 0.);
+    if (std::any_of(multiplier.begin(), multiplier.end(), [](const double x) { return x != 0.; }))
+      ++applications;
     for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
       // Body after body: its vector stays in the cache between loads, solution and motions.
       bool is_loaded = false;
       for (const BodyConstraints::Entry &entry : body_constraints[k])
-        if (active[entry.constraint] && x[entry.constraint] != 0.)
+        if (const double x = multiplier[position[entry.constraint]];
+            active[entry.constraint] && x != 0.)
         {
           if (!is_loaded)
             work.assign(solvers.structure()[k].n_dofs(), 0.);
           is_loaded = true;
-          entry.form.add_to(x[entry.constraint], work);
+          entry.form.add_to(x, work);
         }
       if (!is_loaded)
         continue;
@@ -54,24 +76,45 @@ namespace taut
       ++local_solves;
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         if (active[entry.constraint])
-          share[entry.constraint] += entry.form.dot(work);
+          motion[position[entry.constraint]] += entry.form.dot(work);
     }
-    solvers.structure().communicator().sum(share);
-    for (std::size_t i = 0; i < active.size(); ++i)
-      y[i] = active[i] ? share[i] + (compliance[i] + shift[i]) * x[i] : x[i];
+  }
+
+  void ContactSchurOperator::apply(const std::vector<double> &x, std::vector<double> &y) const
+  {
+    rows().pick(x, scaled);
+    std::vector<double> product;
+    apply_owned(scaled, product);
+    rows().gather(product, y);
+  }
+
+  /// y = F x on owned rows.
+  void ContactSchurOperator::apply_owned(const std::vector<double> &x, std::vector<double> &y) const
+  {
+    multiplier.resize(rows().held().size());
+    rows().copy_to_holders(x.data(), multiplier.data());
+    add_solves();
+    y.resize(x.size());
+    rows().add_shares(motion.data(), y.data());
+    for (std::size_t p = 0; p < x.size(); ++p)
+    {
+      const std::size_t i = rows().owned()[p];
+      y[p] = active[i] ? y[p] + (compliance[i] + shift[i]) * x[p] : x[p];
+    }
   }
 
   void ContactSchurOperator::scaled_apply(const std::vector<double> &x,
                                           std::vector<double> &y) const
   {
-    const auto D = [this](const std::size_t i) { return scale ? (*scale)[i] : 1.; };
+    const std::vector<std::size_t> &owned = rows().owned();
+    const auto D = [&](const std::size_t p)
+    { return scale && active[owned[p]] ? (*scale)[owned[p]] : 1.; };
     scaled.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      scaled[i] = active[i] ? D(i) * x[i] : x[i];
-    y.resize(x.size());
-    apply(scaled.data(), y.data());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = active[i] ? D(i) * y[i] : x[i];
+    for (std::size_t p = 0; p < x.size(); ++p)
+      scaled[p] = D(p) * x[p];
+    apply_owned(scaled, y);
+    for (std::size_t p = 0; p < x.size(); ++p)
+      y[p] = active[owned[p]] ? D(p) * y[p] : x[p];
   }
 
   void ContactSchurOperator::multiply(const std::vector<double> &x, std::vector<double> &y) const

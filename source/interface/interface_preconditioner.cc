@@ -4,6 +4,11 @@
 
 #include <taut/base/exceptions.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <utility>
+
 namespace taut
 {
   namespace
@@ -28,11 +33,12 @@ namespace taut
                       "'; known are: diagonal, Dirichlet. Correct the name");
   }
 
-  void InterfacePreconditioner::setup(const std::vector<char> &active,
+  void InterfacePreconditioner::setup(const RowMap &rows, const std::vector<char> &active,
                                       const std::vector<char> &is_changed,
                                       const std::vector<double> &compliance,
                                       const std::vector<double> &diagonal)
   {
+    owners = &rows;
     other.assign(active.size(), 0.);
     for (std::size_t i = 0; i < active.size(); ++i)
       other[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
@@ -42,6 +48,9 @@ namespace taut
     T.setup(active, is_changed);
     add_springs(active, diagonal, compliance);
     set_scaling();
+    own_rows.reset();
+    if (!has_springs && rows.communicator().size() > 1)
+      set_own_rows(rows);
   }
 
   /// The elastic rows as springs between the DoFs, and the factor of T with them.
@@ -109,6 +118,46 @@ namespace taut
     }
     entries.compress();
     Q.factor(diagonal.size(), entries, 0.);
+    Q_entries = std::move(entries);
+  }
+
+  /// The blocks of Q that the bodies of this rank see.
+  void InterfacePreconditioner::set_own_rows(const RowMap &rows)
+  {
+    const std::size_t first = T.first_own_dof(), end = first + T.n_own_dofs();
+    boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
+    for (std::size_t e = 0; e < Q_entries.size(); ++e)
+      blocks.union_set(static_cast<std::size_t>(Q_entries.row[e]),
+                       static_cast<std::size_t>(Q_entries.column[e]));
+    std::vector<char> is_seen(is_rigid.size(), 0);
+    for (const std::size_t i : rows.owned())
+      is_seen[blocks.find_set(i)] = 1;
+    for (std::size_t e = 0; e < scaled_B.size(); ++e)
+      if (scaled_B.value[e] != 0. && static_cast<std::size_t>(scaled_B.column[e]) >= first &&
+          static_cast<std::size_t>(scaled_B.column[e]) < end)
+        is_seen[blocks.find_set(static_cast<std::size_t>(scaled_B.row[e]))] = 1;
+    std::vector<std::size_t> held, position(is_rigid.size(), 0);
+    for (std::size_t i = 0; i < is_rigid.size(); ++i)
+      if (is_seen[blocks.find_set(i)])
+      {
+        position[i] = held.size();
+        held.push_back(i);
+      }
+    own_B = {};
+    for (std::size_t e = 0; e < scaled_B.size(); ++e)
+      if (const std::size_t dof = scaled_B.column[e];
+          scaled_B.value[e] != 0. && dof >= first && dof < end)
+        own_B.add(position[scaled_B.row[e]], dof - first, scaled_B.value[e]);
+    SymmetricEntries of_held;
+    for (std::size_t e = 0; e < Q_entries.size(); ++e)
+      if (is_seen[blocks.find_set(static_cast<std::size_t>(Q_entries.row[e]))])
+        of_held.add(position[Q_entries.row[e]], position[Q_entries.column[e]], Q_entries.value[e]);
+    of_held.compress();
+    own_Q.factor(held.size(), of_held, 0.);
+    place.clear();
+    for (const std::size_t i : rows.owned())
+      place.push_back(position[i]);
+    own_rows = std::make_unique<const RowMap>(rows, std::move(held));
   }
 
   void InterfacePreconditioner::scale(std::vector<double> &r) const
@@ -128,10 +177,46 @@ namespace taut
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
   {
     z.resize(r.size());
-    for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = own[i] * r[i];
+    for (std::size_t p = 0; p < r.size(); ++p)
+      z[p] = own[owners->owned()[p]] * r[p];
     if (is_diagonal)
       return;
+    if (own_rows)
+      return apply_by_owners(r, z);
+    owners->gather(r, all);
+    apply_to_all(all, image);
+    owners->pick(image, z);
+  }
+
+  /// Without springs: adds the rigid rows to z, on owned rows.
+  void InterfacePreconditioner::apply_by_owners(const std::vector<double> &r,
+                                                std::vector<double> &z) const
+  {
+    jump.resize(own_rows->held().size());
+    own_rows->copy_to_holders(r.data(), jump.data());
+    own_Q.solve(jump);
+    motion.assign(T.n_own_dofs(), 0.);
+    for (std::size_t e = 0; e < own_B.size(); ++e)
+      motion[own_B.column[e]] += own_B.value[e] * jump[own_B.row[e]];
+    T.multiply_own(motion, force);
+    std::fill(jump.begin(), jump.end(), 0.);
+    for (std::size_t e = 0; e < own_B.size(); ++e)
+      jump[own_B.row[e]] += own_B.value[e] * force[own_B.column[e]];
+    image.resize(r.size());
+    own_rows->add_shares(jump.data(), image.data());
+    own_rows->copy_to_holders(image.data(), jump.data());
+    own_Q.solve(jump);
+    for (std::size_t p = 0; p < r.size(); ++p)
+      if (is_rigid[owners->owned()[p]])
+        z[p] += jump[place[p]];
+  }
+
+  void InterfacePreconditioner::apply_to_all(const std::vector<double> &r,
+                                             std::vector<double> &z) const
+  {
+    z.resize(r.size());
+    for (std::size_t i = 0; i < r.size(); ++i)
+      z[i] = own[i] * r[i];
 
     const MatrixEntries &B = T.constraints();
     // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.

@@ -4,6 +4,7 @@
 
 #include "interface/interface_stiffness.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ namespace taut
    * the (B^T B)^-1 scaling where D is the same on all sides. Q is small blocks, one for the
    * constraints at a node that several parts share. Moving constraints are constraints like the
    * others.
+   *
+   * Without elastic constraints one of several ranks applies it to what its bodies see: the rows of
+   * the blocks of Q with a term on one of them. Otherwise T is factored, and applied to all rows,
+   * on each rank.
    */
   class InterfacePreconditioner
   {
@@ -43,10 +48,11 @@ namespace taut
 
     /// Sets up for the active constraints. Bodies in @p is_changed have another A_k or other
     /// constraints than in the last call. @p diagonal is that of F.
-    void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
-               const std::vector<double> &compliance, const std::vector<double> &diagonal);
+    void setup(const RowMap &rows, const std::vector<char> &active,
+               const std::vector<char> &is_changed, const std::vector<double> &compliance,
+               const std::vector<double> &diagonal);
 
-    /// z = M^-1 r; zero on inactive constraints. Called by all ranks together.
+    /// z = M^-1 r on owned rows; zero on inactive constraints. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
     /// r = Q^-1 r: local stiffness at a constraint, without the bodies behind; 1 / F_ii for elastic
@@ -57,20 +63,32 @@ namespace taut
     void add_springs(const std::vector<char> &active, const std::vector<double> &diagonal,
                      const std::vector<double> &compliance);
     void set_scaling();
+    void set_own_rows(const RowMap &rows);
+    void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
+    void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
     const bool is_diagonal;
     InterfaceStiffness T;
 
     // The same on all ranks.
     SparseCholesky inverse_T;
-    MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
+    MatrixEntries scaled_B; ///< D^-1 B_r, in the order of the constraints of T
+    SymmetricEntries Q_entries;
     SparseCholesky Q;              ///< of the rigid rows, 1 on the others
     std::vector<char> is_rigid;    ///< a row of Q
     std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0
     std::vector<double> own;       ///< the part of other without further treatment
     std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, else 0
     bool has_springs = false;
-    mutable std::vector<double> motion, force, jump;
+    mutable std::vector<double> motion, force, jump, all, image;
+
+    // Of one of several ranks: D^-1 B_r at its DoFs, and Q of the rows that share blocks with
+    // theirs.
+    const RowMap *owners = nullptr;
+    std::unique_ptr<const RowMap> own_rows;
+    MatrixEntries own_B; ///< row among those of own_rows, DoF among those of this rank
+    SparseCholesky own_Q;
+    std::vector<std::size_t> place; ///< of an owned row among those of own_rows
   };
 } // namespace taut
 

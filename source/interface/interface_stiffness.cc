@@ -50,7 +50,7 @@ namespace taut
             if (is_changed[k])
               compute_block(k, active);
         });
-    std::size_t n_own = 0;
+    n_own = 0;
     for (const Block &block : blocks)
       n_own += block.dofs.size();
     std::vector<std::size_t> sizes;
@@ -58,6 +58,7 @@ namespace taut
     std::size_t first =
         std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
     n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
+    first_own = first;
 
     T = {};
     B = {};
@@ -79,6 +80,12 @@ namespace taut
             B.add(entry.constraint, first + (at - block.dofs.begin()), entry.form.value[e]);
         }
       first += block.dofs.size();
+    }
+    own_T = T;
+    for (std::size_t e = 0; e < own_T.size(); ++e)
+    {
+      own_T.row[e] -= static_cast<int>(first_own);
+      own_T.column[e] -= static_cast<int>(first_own);
     }
     gather(processes, T);
     gather(processes, substitute);
@@ -239,30 +246,44 @@ namespace taut
     return D;
   }
 
+  /// Sets f = T_k u of the blocks of this rank that are not formed, on DoFs after @p before.
+  void InterfaceStiffness::apply_substituted(const std::size_t before, const std::vector<double> &u,
+                                             std::vector<double> &f) const
+  {
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+    {
+      const Block &block = blocks[k];
+      if (!block.interior)
+        continue;
+      const std::size_t n = block.dofs.size(), first = block.first - before;
+      whole.assign(solvers.structure()[k].n_dofs(), 0.);
+      for (std::size_t p = 0; p < n; ++p)
+        whole[block.dofs[p]] = u[first + p];
+      solvers.multiply(k, whole, image);
+      for (std::size_t p = 0; p < n; ++p)
+        f[first + p] = image[block.dofs[p]];
+      block.interior->solve(image);
+      solvers.multiply(k, image, whole);
+      for (std::size_t p = 0; p < n; ++p)
+        f[first + p] -= whole[block.dofs[p]];
+    }
+  }
+
   void InterfaceStiffness::multiply(const std::vector<double> &u, std::vector<double> &f) const
   {
     f.assign(n_constrained, 0.);
     if (substitute.size() > 0)
     {
-      for (std::size_t k = 0; k < blocks.size(); ++k)
-      {
-        const Block &block = blocks[k];
-        if (!block.interior)
-          continue;
-        const std::size_t n = block.dofs.size();
-        whole.assign(solvers.structure()[k].n_dofs(), 0.);
-        for (std::size_t p = 0; p < n; ++p)
-          whole[block.dofs[p]] = u[block.first + p];
-        solvers.multiply(k, whole, image);
-        for (std::size_t p = 0; p < n; ++p)
-          f[block.first + p] = image[block.dofs[p]];
-        block.interior->solve(image);
-        solvers.multiply(k, image, whole);
-        for (std::size_t p = 0; p < n; ++p)
-          f[block.first + p] -= whole[block.dofs[p]];
-      }
+      apply_substituted(0, u, f);
       solvers.structure().communicator().sum(f);
     }
     T.vmult_add(u, f);
+  }
+
+  void InterfaceStiffness::multiply_own(const std::vector<double> &u, std::vector<double> &f) const
+  {
+    f.assign(n_own, 0.);
+    apply_substituted(first_own, u, f);
+    own_T.vmult_add(u, f);
   }
 } // namespace taut

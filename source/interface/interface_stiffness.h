@@ -47,6 +47,13 @@ namespace taut
     /// f = T u. Called by all ranks together.
     void multiply(const std::vector<double> &u, std::vector<double> &f) const;
 
+    /// The DoFs in the lists of this rank: their first one and their number.
+    std::size_t first_own_dof() const { return first_own; }
+    std::size_t n_own_dofs() const { return n_own; }
+
+    /// The same without springs for the DoFs of this rank alone, which no others are coupled with.
+    void multiply_own(const std::vector<double> &u, std::vector<double> &f) const;
+
   private:
     /// T_k, by position in the list of DoFs b.
     struct Block
@@ -64,11 +71,14 @@ namespace taut
                                                    const std::vector<char> &active) const;
     void set_entries(std::size_t k, Block &block) const;
     void condense(std::size_t k, Block &block) const;
+    void apply_substituted(std::size_t before, const std::vector<double> &u,
+                           std::vector<double> &f) const;
 
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;
-    std::size_t n_constrained = 0;
+    std::size_t n_constrained = 0, first_own = 0, n_own = 0;
+    SymmetricEntries own_T;      ///< formed blocks of this rank, by positions in its own lists
     SymmetricEntries T;          ///< formed blocks and springs
     SymmetricEntries substitute; ///< A_k on b of blocks that are not formed
     MatrixEntries B;             ///< row of F, DoF

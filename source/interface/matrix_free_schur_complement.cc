@@ -17,7 +17,7 @@ namespace taut
    * Solves A x = b from x = 0 with preconditioned conjugate gradients of Belos. They end if the
    * recursive residual is below @p tolerance times the norm of b, or after @p bound iterations.
    * They end early with the present x at a direction along which A is not positive. Returns the
-   * number of iterations. Each rank solves for itself: vectors over constraints are equal on all.
+   * number of iterations. Vectors are those of the rows that a rank owns.
    */
   int conjugate_gradients(const ConstraintOperator &A, ConstraintOperator &preconditioner,
                           const std::vector<double> &b, double tolerance, int bound,
@@ -59,7 +59,8 @@ namespace taut
       // The residual is not a number: the preconditioned one was zero, or numbers are out of range.
     }
     x.assign(solution[0], solution[0] + b.size());
-    if (!std::all_of(x.begin(), x.end(), [](const double v) { return std::isfinite(v); }))
+    if (A.rows().communicator().any(
+            !std::all_of(x.begin(), x.end(), [](const double v) { return std::isfinite(v); })))
       x.assign(b.size(), 0.);
     return A.n_products() - before;
   }
@@ -106,7 +107,7 @@ namespace taut
   {
   public:
     Inverse(MatrixFreeSchurComplement &of, const NaturalCoarseProblem *projector)
-        : ConstraintOperator(of.constraints.size()), of(of), projector(projector)
+        : ConstraintOperator(of.F.shared_rows()), of(of), projector(projector)
     {
     }
 
@@ -177,6 +178,7 @@ namespace taut
     mark();
     for (const std::size_t k : touched)
       is_changed[k] = 1;
+    F.update_rows();
     flexibilities.update(touched);
   }
 
@@ -216,8 +218,7 @@ namespace taut
 
   void MatrixFreeSchurComplement::apply(const std::vector<double> &x, std::vector<double> &y) const
   {
-    y.resize(x.size());
-    F.apply(x.data(), y.data());
+    F.apply(x, y);
   }
 
   /// Preconditioner and coarse space for a set, as far as it is new.
@@ -233,7 +234,7 @@ namespace taut
           if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
             is_changed[k] = 1;
       is_stale = true; // until both are ready
-      preconditioner.setup(wanted, is_changed, compliance, flexibilities.diagonal());
+      preconditioner.setup(rows(), wanted, is_changed, compliance, flexibilities.diagonal());
       if (coarse_space)
         coarse_space->setup(wanted, is_changed, compliance);
       active = wanted;
@@ -246,8 +247,9 @@ namespace taut
 
   void MatrixFreeSchurComplement::divide_by_scale(std::vector<double> &x) const
   {
-    for (std::size_t i = 0; i < x.size(); ++i)
-      x[i] = active[i] ? x[i] / scale()[i] : 0.;
+    const std::vector<std::size_t> &owned = rows().owned();
+    for (std::size_t p = 0; p < x.size(); ++p)
+      x[p] = active[owned[p]] ? x[p] / scale()[owned[p]] : 0.;
   }
 
   /// Applies the preconditioner, balanced by the coarse space.
@@ -258,19 +260,39 @@ namespace taut
     divide_by_scale(constraint_work);
     if (coarse_space)
     {
-      coarse_space->solve(constraint_work, coarse_part, coarse_motion);
-      for (std::size_t i = 0; i < r.size(); ++i)
-        constraint_work[i] -= coarse_motion[i];
+      coarse_space->solve(rows(), constraint_work, coarse_part, coarse_motion);
+      for (std::size_t p = 0; p < r.size(); ++p)
+        constraint_work[p] -= coarse_motion[p];
     }
     preconditioner.apply(constraint_work, z);
     if (coarse_space)
     {
-      coarse_space->project(z);
-      for (std::size_t i = 0; i < r.size(); ++i)
-        z[i] += coarse_part[i];
+      coarse_space->project(rows(), z);
+      for (std::size_t p = 0; p < r.size(); ++p)
+        z[p] += coarse_part[p];
     }
-    for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = active[i] ? z[i] / scale()[i] : r[i];
+    const std::vector<std::size_t> &owned = rows().owned();
+    for (std::size_t p = 0; p < r.size(); ++p)
+      z[p] = active[owned[p]] ? z[p] / scale()[owned[p]] : r[p];
+  }
+
+  /// The right-hand side of the active rows that this rank owns, scaled.
+  std::vector<double> MatrixFreeSchurComplement::scaled(const std::vector<double> &rhs) const
+  {
+    std::vector<double> result;
+    for (const std::size_t i : rows().owned())
+      result.push_back(active[i] ? scale()[i] * rhs[i] : 0.);
+    return result;
+  }
+
+  /// The multipliers of all rows, on all ranks.
+  void MatrixFreeSchurComplement::set_solution(const std::vector<double> &scaled_x,
+                                               std::vector<double> &x) const
+  {
+    rows().gather(scaled_x, x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (active[i])
+        x[i] *= scale()[i];
   }
 
   bool MatrixFreeSchurComplement::solve(const std::vector<std::size_t> &set,
@@ -278,15 +300,12 @@ namespace taut
                                         std::vector<double> &x)
   {
     x.assign(constraints.size(), 0.);
-    std::vector<double> b(constraints.size(), 0.);
-    for (const std::size_t i : set)
-      b[i] = scale()[i] * rhs[i];
-    if (largest(b) == 0.)
+    if (std::all_of(set.begin(), set.end(), [&](const std::size_t i) { return rhs[i] == 0.; }))
       return true;
     prepare(set, shift);
-    const bool is_solved = refine(nullptr, b, x);
-    for (const std::size_t i : set)
-      x[i] *= scale()[i];
+    std::vector<double> b = scaled(rhs), scaled_x(b.size(), 0.);
+    const bool is_solved = refine(nullptr, b, scaled_x);
+    set_solution(scaled_x, x);
     F.unrestrict();
     F.set_shift(0., flexibilities.diagonal());
     return is_solved;
@@ -300,28 +319,30 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const NaturalCoarseProblem coarse_problem(null_space, scale(), active,
-                                              [this](std::vector<double> &x)
+    const auto divide = [&](std::vector<double> &all)
+    {
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = active[i] ? all[i] / scale()[i] : 0.;
+    };
+    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(),
+                                              [&](std::vector<double> &all)
                                               {
-                                                divide_by_scale(x);
-                                                preconditioner.scale(x);
-                                                divide_by_scale(x);
+                                                divide(all);
+                                                preconditioner.scale(all);
+                                                divide(all);
                                               });
     x.assign(constraints.size(), 0.);
     bool is_solved = coarse_problem.holds_the_bodies();
     if (is_solved)
     {
-      std::vector<double> b(constraints.size(), 0.), image;
-      for (const std::size_t i : set)
-        b[i] = scale()[i] * rhs[i];
-      coarse_problem.balance(load, x);
-      is_solved = refine(&coarse_problem, b, x);
-      F.scaled_apply(x, image);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        image[i] = b[i] - image[i];
+      std::vector<double> b = scaled(rhs), scaled_x(b.size(), 0.), image;
+      coarse_problem.balance(load, scaled_x);
+      is_solved = refine(&coarse_problem, b, scaled_x);
+      F.scaled_apply(scaled_x, image);
+      for (std::size_t p = 0; p < b.size(); ++p)
+        image[p] = b[p] - image[p];
       alpha = coarse_problem.amplitudes(image);
-      for (const std::size_t i : set)
-        x[i] *= scale()[i];
+      set_solution(scaled_x, x);
     }
     F.unrestrict();
     F.set_shift(0., flexibilities.diagonal());
@@ -342,6 +363,8 @@ namespace taut
       if (null_space)
         null_space->project_residual(v);
     };
+    const auto largest_of_all = [&](const std::vector<double> &v)
+    { return rows().communicator().max(largest(v)); };
     F.set_projector(null_space);
     Inverse inverse(*this, null_space);
     std::vector<double> r, step, image, candidate = x;
@@ -352,15 +375,15 @@ namespace taut
       for (std::size_t i = 0; i < b.size(); ++i)
         r[i] = b[i] - image[i];
       project_residual(r);
-      return largest(r);
+      return largest_of_all(r);
     };
     ++counts.n_systems;
     int bound = 100 + 10 * static_cast<int>(constraints.size());
-    double best = residual(), size = larger(largest(b), largest(x));
+    double best = residual(), size = larger(largest_of_all(b), largest_of_all(x));
     for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {
       const double reduction =
-          std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest(r)));
+          std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest_of_all(r)));
       const int n = conjugate_gradients(F, inverse, r, reduction, bound, step);
       counts.n_iterations += n;
       bound = std::max(n, least_bound); // a restart reduces less; more iterations mean rounding
@@ -368,7 +391,7 @@ namespace taut
       for (std::size_t i = 0; i < x.size(); ++i)
         candidate[i] = x[i] + step[i];
       const double error = residual();
-      size = larger(largest(b), largest(candidate));
+      size = larger(largest_of_all(b), largest_of_all(candidate));
       if (!(error < .5 * best))
         break;
       best = error;

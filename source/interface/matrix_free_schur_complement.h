@@ -61,7 +61,10 @@ namespace taut
     bool is_iterative() const override { return true; }
     void set_tolerance(double wanted) override;
 
+    const RowMap &rows() const { return F.rows(); }
     const std::vector<double> &scale() const { return flexibilities.scale(); }
+    std::vector<double> scaled(const std::vector<double> &rhs) const;
+    void set_solution(const std::vector<double> &scaled_x, std::vector<double> &x) const;
     void prepare(const std::vector<std::size_t> &set, double shift);
     void divide_by_scale(std::vector<double> &x) const;
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);

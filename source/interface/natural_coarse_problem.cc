@@ -2,25 +2,26 @@
 #include "interface/natural_coarse_problem.h"
 #include "base/pivots.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace taut
 {
-  namespace
+  std::vector<double> NaturalCoarseProblem::products(const std::vector<LinearForm> &forms,
+                                                     const std::vector<double> &x) const
   {
-    std::vector<double> products(const std::vector<LinearForm> &forms, const std::vector<double> &x)
-    {
-      std::vector<double> result(forms.size());
-      for (std::size_t k = 0; k < forms.size(); ++k)
-        result[k] = forms[k].dot(x);
-      return result;
-    }
-  } // namespace
+    std::vector<double> result(forms.size());
+    for (std::size_t k = 0; k < forms.size(); ++k)
+      result[k] = forms[k].dot(x);
+    rows.communicator().sum(result);
+    return result;
+  }
 
   NaturalCoarseProblem::NaturalCoarseProblem(
       const std::vector<LinearForm> &null_space, const std::vector<double> &scale,
-      const std::vector<char> &active, const std::function<void(std::vector<double> &)> &solve)
-      : G(null_space.size()), scaled_G(null_space.size())
+      const std::vector<char> &active, const RowMap &rows,
+      const std::function<void(std::vector<double> &)> &solve)
+      : rows(rows), G(null_space.size()), scaled_G(null_space.size())
   {
     // Motions at each row, so that only motions with common rows are multiplied.
     std::vector<std::vector<std::pair<std::size_t, double>>> at_row(active.size());
@@ -54,6 +55,18 @@ namespace taut
     }
     entries.compress();
     is_definite = squares.factor(G.size(), entries, dependent_pivot) == G.size();
+
+    const std::vector<std::size_t> &owned = rows.owned();
+    for (std::vector<LinearForm> *forms : {&G, &scaled_G})
+      for (LinearForm &form : *forms)
+      {
+        LinearForm of_owned;
+        for (std::size_t e = 0; e < form.index.size(); ++e)
+          if (const auto at = std::lower_bound(owned.begin(), owned.end(), form.index[e]);
+              at != owned.end() && *at == form.index[e])
+            of_owned.add(at - owned.begin(), form.value[e]);
+        form = of_owned;
+      }
   }
 
   void NaturalCoarseProblem::balance(const std::vector<double> &e, std::vector<double> &x) const

@@ -4,6 +4,7 @@
 
 #include <taut/base/linear_form.h>
 #include <taut/base/sparse_cholesky.h>
+#include <taut/interface/row_map.h>
 
 #include <functional>
 #include <vector>
@@ -24,9 +25,11 @@ namespace taut
   {
   public:
     /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns.
-    /// Only columns of active rows count. @p solve applies Q^-1, zero on other rows.
+    /// Only columns of active rows count. @p solve applies Q^-1, zero on other rows. Other
+    /// functions take vectors on owned rows, and are called by all ranks together.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                          const std::vector<double> &scale, const std::vector<char> &active,
+                         const RowMap &rows,
                          const std::function<void(std::vector<double> &)> &solve);
 
     /// False if rows of G are dependent: the active rows do not hold a body.
@@ -45,7 +48,11 @@ namespace taut
     std::vector<double> amplitudes(const std::vector<double> &r) const;
 
   private:
-    std::vector<LinearForm> G, scaled_G; ///< G Q^-1
+    std::vector<double> products(const std::vector<LinearForm> &forms,
+                                 const std::vector<double> &x) const;
+
+    const RowMap &rows;
+    std::vector<LinearForm> G, scaled_G; ///< G Q^-1; of owned rows
     SparseCholesky squares;              ///< G Q^-1 G^T
     bool is_definite = false;
   };

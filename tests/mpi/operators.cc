@@ -16,7 +16,7 @@
 
 namespace
 {
-  long n_exchanges = 0;
+  long n_exchanges = 0, n_sent = 0; ///< sums over ranks, and bytes in messages to one rank
 
   constexpr double mass_factor = 1e4; ///< [1/s^2]
 
@@ -29,11 +29,12 @@ namespace
     return 200. + 40. * i;
   }
 
-  /// Masses beside each other, on all ranks in turn, each with a stop to the next one.
+  /// Masses beside each other, on all ranks in turn or each rank a stretch of them, each with a
+  /// stop to the next one.
   struct Row
   {
-    explicit Row(const std::size_t n_constraints)
-        : n(n_constraints), structure((build(), system.structure())),
+    explicit Row(const std::size_t n_constraints, const bool in_stretches = false)
+        : n(n_constraints), in_stretches(in_stretches), structure((build(), system.structure())),
           constraints(system.constraints(structure)), solvers(structure, "sparse direct")
     {
       solvers.factor(mass_factor, 0.);
@@ -42,7 +43,8 @@ namespace
     void build()
     {
       for (std::size_t i = 0; i <= n; ++i)
-        system.add("mass " + std::to_string(i), i % processes.size(),
+        system.add("mass " + std::to_string(i),
+                   in_stretches ? i * processes.size() / (n + 1) : i % processes.size(),
                    [i] { return library::chain_of("mass", {mass(i)}, {stiffness(i)}); });
       for (std::size_t i = 0; i < n; ++i)
         system.add(taut::Constraint::unilateral("stop " + std::to_string(i), up(i), up(i + 1)));
@@ -70,6 +72,7 @@ namespace
     }
 
     const std::size_t n;
+    const bool in_stretches;
     const taut::Communicator processes = taut::Communicator(MPI_COMM_WORLD);
     taut::System system = taut::System(processes);
     taut::Structure structure;
@@ -81,6 +84,15 @@ namespace
   {
     for (std::size_t i = 0; i < expected.size(); ++i)
       EXPECT_NEAR(found[i], expected[i], 1e-10 * std::fabs(expected[i])) << i;
+  }
+
+  /// On the rows that this rank owns.
+  void expect_close(const taut::RowMap &rows, const double *found,
+                    const std::vector<double> &expected)
+  {
+    std::vector<double> own;
+    rows.pick(expected, own);
+    expect_close(found, own);
   }
 
   std::vector<double> some_multipliers(const std::size_t n)
@@ -100,6 +112,71 @@ extern "C" int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type
   return PMPI_Allreduce(in, out, n, type, how, processes);
 }
 
+/// Counts the bytes that Epetra sends.
+extern "C" int MPI_Rsend(const void *data, int n, MPI_Datatype type, int to, int tag,
+                         MPI_Comm processes)
+{
+  int size = 0;
+  MPI_Type_size(type, &size);
+  n_sent += static_cast<long>(size) * n;
+  return PMPI_Rsend(data, n, type, to, tag, processes);
+}
+
+TEST(Operators, each_row_has_one_owner_and_its_holders)
+{
+  const Row row(23);
+  const taut::BodyConstraints of_bodies(row.structure, row.constraints);
+  const taut::RowMap rows(row.processes, of_bodies.rows(), row.n + 2); // two that nobody holds
+  const std::vector<std::size_t> &owned = rows.owned(), &held = rows.held();
+  EXPECT_TRUE(std::is_sorted(owned.begin(), owned.end()));
+  EXPECT_TRUE(std::includes(held.begin(), held.end(), owned.begin(), owned.end()));
+  std::vector<double> n_owners(row.n + 2, 0.), values, on_held(held.size()), sums(owned.size()),
+      all;
+  for (const std::size_t i : owned)
+    ++n_owners[i];
+  row.processes.sum(n_owners);
+  EXPECT_EQ(n_owners, std::vector<double>(row.n + 2, 1.));
+
+  for (const std::size_t i : owned)
+    values.push_back(std::cos(i));
+  rows.copy_to_holders(values.data(), on_held.data());
+  for (std::size_t p = 0; p < held.size(); ++p)
+    EXPECT_EQ(on_held[p], std::cos(held[p]));
+  std::vector<double> n_holders(row.n + 2, 0.);
+  for (const std::size_t i : held)
+    ++n_holders[i];
+  row.processes.sum(n_holders);
+  rows.add_shares(on_held.data(), sums.data());
+  for (std::size_t p = 0; p < owned.size(); ++p)
+    EXPECT_NEAR(sums[p], n_holders[owned[p]] * values[p], 1e-15);
+  rows.gather(values, all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_EQ(all[i], std::cos(i));
+}
+
+// A product takes no sum over ranks. Of a row in stretches, neighbours share one constraint, whose
+// multiplier one of them sends and whose motion the other.
+TEST(Operators, a_product_sends_what_ranks_share)
+{
+  for (const std::size_t n : {8, 40, 400})
+  {
+    const Row row(n, true);
+    const taut::BodyConstraints of_bodies(row.structure, row.constraints);
+    taut::ContactSchurOperator F(row.solvers, of_bodies, n);
+    const std::vector<double> known = some_multipliers(n);
+    Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
+    for (int p = 0; p < x.MyLength(); ++p)
+      x[p] = known[F.rows().owned()[p]];
+    const long exchanges = n_exchanges, before = n_sent;
+    ASSERT_EQ(F.Apply(x, y), 0);
+    EXPECT_EQ(n_exchanges, exchanges);
+    std::vector<double> sent = {static_cast<double>(n_sent - before)};
+    row.processes.sum(sent);
+    EXPECT_EQ(sent[0], 2. * sizeof(double) * (row.processes.size() - 1.)) << n;
+    expect_close(F.rows(), y.Values(), row.product(known));
+  }
+}
+
 TEST(Operators, apply_and_aztecoo)
 {
   const Row row(7);
@@ -107,9 +184,10 @@ TEST(Operators, apply_and_aztecoo)
   taut::ContactSchurOperator F(row.solvers, of_bodies, row.n);
   const std::vector<double> known = some_multipliers(row.n), expected = row.product(known);
   Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
-  std::copy(known.begin(), known.end(), x.Values());
+  for (int p = 0; p < x.MyLength(); ++p)
+    x[p] = known[F.rows().owned()[p]];
   ASSERT_EQ(F.Apply(x, y), 0);
-  expect_close(y.Values(), expected);
+  expect_close(F.rows(), y.Values(), expected);
 
   Epetra_Vector solution(F.OperatorDomainMap());
   Epetra_LinearProblem problem(&F, &solution, &y);
@@ -118,7 +196,7 @@ TEST(Operators, apply_and_aztecoo)
   solver.SetAztecOption(AZ_precond, AZ_none);
   solver.SetAztecOption(AZ_output, AZ_none);
   ASSERT_EQ(solver.Iterate(100, 1e-14), 0);
-  expect_close(solution.Values(), known);
+  expect_close(F.rows(), solution.Values(), known);
 }
 
 TEST(Operators, setting_up_takes_as_many_exchanges_whatever_the_size)

@@ -36,6 +36,9 @@ namespace taut
     unsigned int size() const { return n_ranks; }
     bool is_root() const { return own_rank == 0; }
 
+    /// For libraries that take one; MPI_COMM_NULL for a process alone.
+    MPI_Comm of_mpi() const { return processes; }
+
     /// Each entry becomes its sum over all ranks, the same number on all of them.
     void sum(double *values, std::size_t n) const;
     void sum(std::vector<double> &values) const { sum(values.data(), values.size()); }

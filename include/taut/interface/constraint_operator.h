@@ -3,17 +3,15 @@
 #define taut_constraint_operator_h
 
 #include <taut/interface/constraints.h>
+#include <taut/interface/row_map.h>
 
-#include <Epetra_LocalMap.h>
-#include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
 #include <Epetra_Operator.h>
-#include <Epetra_SerialComm.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -38,6 +36,9 @@ namespace taut
 
     std::size_t size() const { return entries.size(); }
 
+    /// The constraints with a term on a body of this rank, ascending.
+    std::vector<std::size_t> rows() const;
+
     /// Constraints on body k of this rank.
     const std::vector<Entry> &operator[](std::size_t k) const { return entries[k]; }
 
@@ -48,23 +49,24 @@ namespace taut
     std::vector<std::vector<Entry>> entries; ///< sliding and turning constraints last
   };
 
-  /// A symmetric operator on vectors over constraints for Belos. Vectors are equal on all ranks.
+  /// A symmetric operator on vectors over constraints for Belos: each rank has the values of the
+  /// rows that it owns.
   class ConstraintOperator : public Epetra_Operator
   {
   public:
-    explicit ConstraintOperator(const std::size_t n_constraints)
-        : communicator(make_communicator()), map(static_cast<int>(n_constraints), 0, *communicator),
-          in(n_constraints)
-    {
-    }
+    explicit ConstraintOperator(std::shared_ptr<const RowMap> rows) : own_rows(std::move(rows)) {}
 
-    /// Y = A X for each column of the multivectors over the constraints.
+    const RowMap &rows() const { return *own_rows; }
+    const std::shared_ptr<const RowMap> &shared_rows() const { return own_rows; }
+
+    /// Y = A X for each column of the multivectors over the constraints. Called by all ranks
+    /// together.
     int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
     {
       for (int v = 0; v < X.NumVectors(); ++v)
       {
         ++products;
-        std::copy(X[v], X[v] + in.size(), in.begin());
+        in.assign(X[v], X[v] + X.MyLength());
         multiply(in, out);
         std::copy(out.begin(), out.end(), Y[v]);
       }
@@ -85,26 +87,17 @@ namespace taut
     const char *Label() const override { return "constraints"; }
     bool UseTranspose() const override { return false; }
     bool HasNormInf() const override { return false; }
-    const Epetra_Comm &Comm() const override { return *communicator; }
-    const Epetra_Map &OperatorDomainMap() const override { return map; }
-    const Epetra_Map &OperatorRangeMap() const override { return map; }
+    const Epetra_Comm &Comm() const override { return own_rows->map().Comm(); }
+    const Epetra_Map &OperatorDomainMap() const override { return own_rows->map(); }
+    const Epetra_Map &OperatorRangeMap() const override { return own_rows->map(); }
+
+  protected:
+    std::shared_ptr<const RowMap> own_rows;
 
   private:
     /// y = A x
     virtual void multiply(const std::vector<double> &x, std::vector<double> &y) const = 0;
 
-    /// This process alone; AztecOO, where it knows MPI, takes nothing but a communicator of MPI.
-    static std::unique_ptr<Epetra_Comm> make_communicator()
-    {
-      int is_on = 0;
-      MPI_Initialized(&is_on);
-      if (is_on)
-        return std::make_unique<Epetra_MpiComm>(MPI_COMM_SELF);
-      return std::make_unique<Epetra_SerialComm>();
-    }
-
-    const std::unique_ptr<Epetra_Comm> communicator;
-    Epetra_LocalMap map;
     mutable std::vector<double> in, out;
     mutable int products = 0;
   };

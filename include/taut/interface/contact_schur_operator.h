@@ -16,6 +16,10 @@ namespace taut
    * A_k without being assembled. On an active set F is the identity for the other constraints: it
    * stays definite, and an iterative solver sees vectors of one length.
    *
+   * A product takes the multipliers of the rows that a rank holds from their owners, solves with
+   * the bodies of the rank, and adds the motions of these rows at their owners: ranks exchange what
+   * their common rows have, and nothing else.
+   *
    * Belos applies P^T D F D P with a scale D of the constraints and, in statics, the projector P of
    * the natural coarse problem.
    */
@@ -42,10 +46,14 @@ namespace taut
     /// Sets P, kept by reference; null: the identity.
     void set_projector(const NaturalCoarseProblem *P) { projector = P; }
 
-    /// y = F x with one entry a constraint [m, rad; N, N m].
-    void apply(const double *x, double *y) const;
+    /// After BodyConstraints::update(): sliding constraints may be on bodies of other ranks. Called
+    /// by all ranks together.
+    void update_rows();
 
-    /// y = D F D x on the rows of F; the identity on other rows.
+    /// y = F x with one entry for each constraint of all ranks, on all of them [m, rad; N, N m].
+    void apply(const std::vector<double> &x, std::vector<double> &y) const;
+
+    /// y = D F D x on the rows of F; the identity on other rows. On owned rows.
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y) const;
 
     /// Number of products with nonzero vectors, and of systems with one A_k for these on this rank.
@@ -54,6 +62,9 @@ namespace taut
 
   private:
     void multiply(const std::vector<double> &x, std::vector<double> &y) const override;
+    void apply_owned(const std::vector<double> &x, std::vector<double> &y) const;
+    void add_solves() const;
+    void set_positions();
 
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
@@ -61,7 +72,9 @@ namespace taut
     const NaturalCoarseProblem *projector = nullptr;
     std::vector<double> compliance, shift;
     std::vector<char> active;
-    mutable std::vector<double> share, work, scaled, projected;
+    std::vector<std::size_t> position;              ///< of a held row among them
+    mutable std::vector<double> multiplier, motion; ///< of held rows
+    mutable std::vector<double> work, scaled, projected;
     mutable long applications = 0, local_solves = 0;
   };
 } // namespace taut

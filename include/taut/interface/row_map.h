@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_row_map_h
+#define taut_row_map_h
+
+#include <taut/base/communicator.h>
+
+#include <Epetra_Comm.h>
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Which rows of the constraints this rank holds, and which of them it owns. A rank holds the rows
+   * with a term on one of its bodies. Each row has one owner, the first rank that holds it, or
+   * rank 0 if none does. Vectors over owned rows are those of an Epetra_Map; ranks that hold a
+   * common row send each other their shares, and no others.
+   *
+   * On one rank all rows are held and owned. All functions but the sizes are called by all ranks
+   * together.
+   */
+  class RowMap
+  {
+  public:
+    /// @p held: rows with a term on a body of this rank, ascending, of @p n_rows of all ranks.
+    RowMap(const Communicator &processes, std::vector<std::size_t> held, std::size_t n_rows);
+
+    /// The same owners, for a rank that holds other rows.
+    RowMap(const RowMap &owners, std::vector<std::size_t> held);
+
+    /// The owned rows, ascending.
+    const std::vector<std::size_t> &owned() const { return own; }
+
+    /// The rows that this rank holds, ascending: the owned ones among them.
+    const std::vector<std::size_t> &held() const { return rows; }
+
+    std::size_t n_rows() const { return n; }
+
+    /// Of the owned rows, numbered as they are; each row on one rank.
+    const Epetra_Map &map() const { return *owned_map; }
+
+    /// Values on the held rows from those on owned rows.
+    void copy_to_holders(const double *values, double *on_held) const;
+
+    /// Sums over the ranks that hold a row, on the owned rows.
+    void add_shares(const double *on_held, double *sums) const;
+
+    /// Between owned rows, and all rows on all ranks.
+    void gather(const std::vector<double> &values, std::vector<double> &all) const;
+    void pick(const std::vector<double> &all, std::vector<double> &values) const;
+
+    const Communicator &communicator() const { return processes; }
+
+  private:
+    void set_held_map();
+    void plan();
+
+    const Communicator processes;
+    std::size_t n;
+    std::vector<std::size_t> rows, own;
+    std::shared_ptr<const Epetra_Comm> epetra;
+    std::shared_ptr<const Epetra_Map> owned_map;
+    std::unique_ptr<const Epetra_Map> held_map;
+    std::unique_ptr<const Epetra_Import> importer;
+    mutable std::unique_ptr<Epetra_Vector> held_work, owned_work;
+  };
+} // namespace taut
+
+#endif
