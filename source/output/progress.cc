@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/output/progress.h>
+#include "output/progress.h"
 
 #include <iomanip>
 #include <ostream>

@@ -14,7 +14,7 @@
 #include "study/sweep.h"
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include <taut/output/progress.h>
+#include "output/progress.h"
 #include <taut/simulation/simulation.h>
 
 #include <deal.II/base/multithread_info.h>
