@@ -127,14 +127,7 @@ namespace taut
                                 ? minimize_with_resistance(problem, dense, solution)
                                 : minimize_with_null_space(problem, dense, solution);
 
-    std::vector<double> terms, weights;
-    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
-    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
-    multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
-    taut::residual(problem, solution, terms, weights, final_residual);
-    for (std::size_t i = 0; i < problem.size(); ++i)
-      solution.closed[i] =
-          problem.cones[i].is_free() ? weights[i] > 0. : solution.multiplier[i] > 0.;
+    final_residual = close_rows(problem, matrix, solution);
     return outcome;
   }
 

@@ -14,7 +14,8 @@ namespace taut
     constexpr double smallest_diagonal = 1e-6;
 
     /// W_i.
-    std::vector<double> inverse_diagonal(const DenseOperator &matrix, const std::vector<char> &rows)
+    std::vector<double> inverse_diagonal(const ComplementarityOperator &matrix,
+                                         const std::vector<char> &rows)
     {
       const std::size_t n = matrix.size();
       double mean = 0.;
@@ -31,7 +32,8 @@ namespace taut
   } // namespace
 
   NullSpacePenalty::NullSpacePenalty(const MixedComplementarityProblem &problem,
-                                     const DenseOperator &matrix, const std::vector<char> &rows)
+                                     const ComplementarityOperator &matrix,
+                                     const std::vector<char> &rows)
       : problem(problem), null_space(problem.n_null_space() * problem.size(), 0.),
         all(problem.n_null_space()), row_weights(inverse_diagonal(matrix, rows)),
         weights(problem.n_null_space())

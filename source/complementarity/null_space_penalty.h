@@ -19,8 +19,8 @@ namespace taut
      * Keeps a reference to @p problem. If F_ii is zero, or rounding, the mean of the diagonal takes
      * its place, or 1 if this mean is zero, too. Rows that are 0 in @p rows are left out: W_i = 0.
      */
-    NullSpacePenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-                     const std::vector<char> &rows);
+    NullSpacePenalty(const MixedComplementarityProblem &problem,
+                     const ComplementarityOperator &matrix, const std::vector<char> &rows);
 
     /// G N + e.
     std::vector<double> unbalance(const std::vector<double> &multiplier) const;

@@ -215,4 +215,20 @@ namespace taut
     residual(problem, solution, terms, weights, result);
     return result;
   }
+
+  ComplementarityResidual close_rows(const MixedComplementarityProblem &problem,
+                                     const ComplementarityOperator &matrix,
+                                     MixedComplementaritySolution &solution)
+  {
+    ComplementarityResidual result;
+    std::vector<double> terms, weights;
+    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
+    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
+    multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
+    residual(problem, solution, terms, weights, result);
+    for (std::size_t i = 0; i < problem.size(); ++i)
+      solution.closed[i] =
+          problem.cones[i].is_free() ? weights[i] > 0. : solution.multiplier[i] > 0.;
+    return result;
+  }
 } // namespace taut

@@ -143,6 +143,12 @@ namespace taut
                                    const ComplementarityOperator &matrix,
                                    const MixedComplementaritySolution &solution);
 
+  /// Completes a solution with multipliers and amplitudes: its gaps, and as closed the rows with
+  /// multipliers and the bilateral ones that something moves.
+  ComplementarityResidual close_rows(const MixedComplementarityProblem &problem,
+                                     const ComplementarityOperator &matrix,
+                                     MixedComplementaritySolution &solution);
+
   /// As above, from terms and weights of the caller. Allocates nothing if @p result has its size.
   void residual(const MixedComplementarityProblem &problem,
                 const MixedComplementaritySolution &solution, const std::vector<double> &terms,

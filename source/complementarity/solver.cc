@@ -27,12 +27,12 @@ namespace taut
 
   ComplementaritySolver::ComplementaritySolver(const std::string &method,
                                                const ComplementarityOptions &options)
-      : options(options), use_newton(method == "semismooth Newton"), newton(options),
-        energy_ordered(options)
+      : options(options), use_newton(method == "semismooth Newton"), use_mprgp(method == "MPRGP"),
+        newton(options), energy_ordered(options)
   {
-    if (!use_newton && method != "energy-ordered")
+    if (!use_newton && !use_mprgp && method != "energy-ordered")
       throw UserError("unknown complementarity method '" + method +
-                      "'; known are: semismooth Newton, energy-ordered");
+                      "'; known are: semismooth Newton, energy-ordered, MPRGP");
   }
 
   const ComplementarityResult &
@@ -58,13 +58,15 @@ namespace taut
       {
         const MixedComplementarityProblem &solved =
             repeated.empty() ? problem : repeated.without(problem);
-        const bool is_solved = use_newton && solve_with_newton(solved, matrix);
+        bool is_solved = use_newton && solve_with_newton(solved, matrix);
         if (!has_sought && (!use_newton || newton.has_dependent_rows()))
         {
           has_sought = true;
           if (repeated.find(problem, matrix, exact))
             continue;
         }
+        if (!is_solved && (use_mprgp || (use_newton && matrix.is_iterative())))
+          is_solved = solve_by_products(solved, matrix);
         if (!is_solved)
           solve_energy_ordered(solved, matrix);
         if (spread_over_repeated_rows(problem, matrix))
@@ -139,13 +141,26 @@ namespace taut
     return outcome == SemismoothNewton::Outcome::solved && result.residual.max <= options.tolerance;
   }
 
+  /// By products with F; the active set is then solved exactly.
+  bool ComplementaritySolver::solve_by_products(const MixedComplementarityProblem &problem,
+                                                ComplementarityOperator &matrix)
+  {
+    const bool is_found = mprgp.solve(problem, matrix, result.solution);
+    result.iterations += mprgp.n_changes();
+    result.used_fallback = use_newton;
+    if (!is_found)
+      return false;
+    result.residual = mprgp.residual();
+    return result.residual.max <= options.tolerance || solve_with_newton(problem, matrix);
+  }
+
   void ComplementaritySolver::solve_energy_ordered(const MixedComplementarityProblem &problem,
                                                    ComplementarityOperator &matrix)
   {
     using Outcome = EnergyOrderedActiveSet::Outcome;
     const Outcome outcome = energy_ordered.solve(problem, matrix, result.solution);
     result.iterations += energy_ordered.n_changes();
-    result.used_fallback = use_newton;
+    result.used_fallback = use_newton || use_mprgp;
     result.residual = energy_ordered.residual();
 
     const std::vector<std::size_t> &failed = energy_ordered.failed_indices();

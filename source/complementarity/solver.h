@@ -3,6 +3,7 @@
 #define taut_solver_h
 
 #include "complementarity/energy_ordered.h"
+#include "complementarity/mprgp.h"
 #include "complementarity/repeated_rows.h"
 #include "complementarity/semismooth_newton.h"
 
@@ -15,8 +16,8 @@ namespace taut
   {
     MixedComplementaritySolution solution;
 
-    /// Active sets of Newton's method, and changes of one row by the energy-ordered method, of all
-    /// attempts.
+    /// Active sets of Newton's method, changes of one row by the energy-ordered method, and steps
+    /// of MPRGP that close or open rows, of all attempts.
     unsigned int iterations = 0;
 
     /// True if the other method, not the chosen one, found the solution.
@@ -36,9 +37,10 @@ namespace taut
   {
   public:
     /**
-     * @p method is "semismooth Newton" or "energy-ordered". Where Newton's method fails, the
-     * energy-ordered method takes over. Where the energy-ordered method misses the tolerance,
-     * Newton's method starts from its active set. Another name is a UserError.
+     * @p method is "semismooth Newton", "energy-ordered" or "MPRGP". Where Newton's method fails on
+     * an F without entries, MPRGP takes over; its active set is then solved exactly. Where they
+     * fail, the energy-ordered method does, which names what has no solution. Where it misses the
+     * tolerance, Newton's method starts from its active set. Another name is a UserError.
      */
     explicit ComplementaritySolver(
         const std::string &method = "semismooth Newton",
@@ -82,13 +84,16 @@ namespace taut
                                    const ComplementarityOperator &matrix);
     bool solve_with_newton(const MixedComplementarityProblem &problem,
                            ComplementarityOperator &matrix);
+    bool solve_by_products(const MixedComplementarityProblem &problem,
+                           ComplementarityOperator &matrix);
     void solve_energy_ordered(const MixedComplementarityProblem &problem,
                               ComplementarityOperator &matrix);
 
     ComplementarityOptions options;
-    bool use_newton;
+    bool use_newton, use_mprgp;
     SemismoothNewton newton;
     EnergyOrderedActiveSet energy_ordered;
+    Mprgp mprgp;
     ComplementarityResult result;
     RepeatedRows repeated;
     bool has_sought = false, is_linearised = false;

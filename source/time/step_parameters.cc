@@ -35,10 +35,11 @@ namespace taut
         Patterns::Selection("rigid body modes|none"));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "
-                      "and hands over to the other if it cycles. 'energy-ordered': one link at a "
-                      "time, the energy falls at each change; finite, slower; hands over if it "
-                      "misses the tolerance.",
-                      Patterns::Selection("semismooth Newton|energy-ordered"));
+                      "and hands over if it cycles, to MPRGP where F is matrix-free, else to "
+                      "'energy-ordered': one link at a time, the energy falls at each change; "
+                      "finite, slower; hands over if it misses the tolerance. 'MPRGP': gradient "
+                      "projections, which take products with F alone.",
+                      Patterns::Selection("semismooth Newton|energy-ordered|MPRGP"));
     prm.add_parameter("Contact tolerance", contact_tolerance,
                       "A step whose certificate, the relative residual of its equations, is larger "
                       "than this ends the run with an error [1]",

@@ -213,14 +213,14 @@ namespace
 
     std::string word(const Lines &lines)
     {
-      static const Lines words =
-          split("joint|stop|dropper|sliding contact|string|beam|bar|bar, beam|bar, string|"
-                "transverse|axial|slope|fixed|elastic|point|distributed|moving|true|false|rigid|"
-                "ground|equilibrium|undeformed|given|BDF2|Newmark|backward Euler|generalised-alpha|"
-                "automatic|x|y|rotation|x, y|x, y, rotation|sparse direct|block tridiagonal|"
-                "matrix-free|assembled dense|assembled sparse|energy-ordered|semismooth Newton|"
-                "network|catenary| ",
-                '|');
+      static const Lines words = split(
+          "joint|stop|dropper|sliding contact|string|beam|bar|bar, beam|bar, string|"
+          "transverse|axial|slope|fixed|elastic|point|distributed|moving|true|false|rigid|"
+          "ground|equilibrium|undeformed|given|BDF2|Newmark|backward Euler|generalised-alpha|"
+          "automatic|x|y|rotation|x, y|x, y, rotation|sparse direct|block tridiagonal|"
+          "matrix-free|assembled dense|assembled sparse|energy-ordered|MPRGP|semismooth Newton|"
+          "network|catenary| ",
+          '|');
       static const Lines formulas =
           split("1/t|sqrt(0.002-t)|sin(|if(t<0.002,0,100)|s|1e300*t|exp(1e5*t)|abs(s-1)|sin(pi*s)|"
                 "1;2|pi|t|0*t|1/(s-1)|sqrt(-s)|10|-1e300|((((((((s))))))))",

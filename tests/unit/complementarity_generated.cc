@@ -451,8 +451,12 @@ namespace
       const reference::Solution expected = reference::solve(problem.values, problem.F);
       EXPECT_TRUE(expected.found);
       DenseOperator F = problem.matrix();
-      ComplementaritySolver solver;
-      expect_same(problem, solver.solve(problem.values, F).solution, expected);
+      for (const char *const method : {"semismooth Newton", "MPRGP"})
+      {
+        SCOPED_TRACE(method);
+        ComplementaritySolver solver(method);
+        expect_same(problem, solver.solve(problem.values, F).solution, expected);
+      }
       ++n_compared;
     }
     std::cout << n_compared << " compared" << std::endl;
@@ -528,7 +532,7 @@ namespace
         problem.free_gap.push_back(generator.integer(9) - 4);
       }
       problem.free_gap[j] = factor * problem.free_gap[i] - 1.;
-      for (const char *const method : {"semismooth Newton", "energy-ordered"})
+      for (const char *const method : {"semismooth Newton", "energy-ordered", "MPRGP"})
         try
         {
           ComplementaritySolver(method).solve(problem, F);
@@ -595,7 +599,7 @@ namespace
     unsigned int n_fallbacks = 0;
     double largest = 0.;
     for (unsigned int index = 0; index < 1000; ++index)
-      for (const char *const method : {"semismooth Newton", "energy-ordered"})
+      for (const char *const method : {"semismooth Newton", "energy-ordered", "MPRGP"})
       {
         const Problem problem = generate_floating(index);
         DenseOperator F = problem.matrix();
@@ -613,6 +617,76 @@ namespace
       }
     std::cout << n_fallbacks << " fallbacks, residual " << largest << std::endl;
     EXPECT_LE(n_fallbacks, 300u);
+  }
+
+  TEST(complementarity_generated, mprgp_solves_them_by_products)
+  {
+    // Claim: products with F alone find the gaps of nearly all of them, cycling, redundant and
+    // touching ones as well, with floating bodies and without; the rest is left to the other
+    // methods, which are told so.
+    unsigned int n = 0, n_found = 0, n_cycling = 0, n_found_cycling = 0, n_floating = 0;
+    double largest = 0.;
+    for (unsigned int index = 0; index < n_problems / 10; ++index)
+      for (const bool is_floating : {false, true})
+      {
+        const Problem problem =
+            is_floating ? generate_floating(index, index % 2) : Generator(index).generate();
+        DenseOperator F = problem.matrix();
+        Mprgp solver;
+        MixedComplementaritySolution solution;
+        const bool is_found = solver.solve(problem.values, F, solution);
+        if (is_found)
+        {
+          largest = std::max(largest, solver.residual().max);
+          EXPECT_LE(solver.residual().max, 1e-6) << describe(index, problem);
+        }
+        const bool is_cycling = !is_floating && problem.kind == Kind::cycling;
+        ++n;
+        n_found += is_found;
+        n_cycling += is_cycling;
+        n_found_cycling += is_cycling && is_found;
+        n_floating += is_floating && is_found;
+      }
+    std::cout << n_found << " of " << n << " found, " << n_found_cycling << " of " << n_cycling
+              << " cycling, " << n_floating << " floating, residual " << largest << std::endl;
+    EXPECT_GE(n_found, n - n / 20);
+    EXPECT_EQ(n_found_cycling, n_cycling);
+  }
+
+  TEST(complementarity_generated, mprgp_keeps_its_rate)
+  {
+    // Source: the bound of the rate with the eigenvalues of a circulant, 1 - 2 c cos(2 pi k / n),
+    // whose diagonal is 1. A change takes two products at most.
+    constexpr std::size_t n = 40;
+    constexpr double error = 1e-9;
+    for (const double c : {.1, .3, .45, .49})
+    {
+      DenseOperator F(n);
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        F.set(i, i, 1.);
+        F.set(std::max(i, (i + 1) % n), std::min(i, (i + 1) % n), -c);
+      }
+      MixedComplementarityProblem problem;
+      Generator generator(static_cast<unsigned int>(1e3 * c));
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        problem.cones.push_back(Cone::unilateral_if(i % 5 > 0));
+        problem.free_gap.push_back(generator.integer(19) - 9.5);
+      }
+      const double least = 1. - 2. * c, norm = 1. + 2. * c,
+                   rate = 1. - 1.9 / (1.1 * norm) * least / 4.,
+                   bound = 2. * std::log(error * error * least / norm) / std::log(rate);
+      Mprgp solver;
+      MixedComplementaritySolution solution;
+      ASSERT_TRUE(solver.solve(problem, F, solution));
+      std::cout << "condition " << norm / least << ": " << solver.n_products() << " products, "
+                << solver.n_changes() << " changes, bound " << bound << std::endl;
+      EXPECT_LE(solver.n_products(), 21. + bound);
+      EXPECT_LE(solver.n_products(), 40. + 6. * std::sqrt(norm / least));
+      EXPECT_GT(solver.n_changes(), 0u);
+      EXPECT_LE(solver.residual().max, 1e-8);
+    }
   }
 
   TEST(complementarity_generated, energy_ordered_active_set_takes_any_resistance)
