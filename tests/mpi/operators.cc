@@ -14,9 +14,12 @@
 #include <Epetra_LinearProblem.h>
 #include <Epetra_Vector.h>
 
+#include <numeric>
+
 namespace
 {
-  long n_exchanges = 0, n_sent = 0; ///< sums over ranks, and bytes in messages to one rank
+  /// Sums over ranks, their numbers, and bytes in messages to one rank.
+  long n_exchanges = 0, n_summed = 0, n_sent = 0;
 
   constexpr double mass_factor = 1e4; ///< [1/s^2]
 
@@ -109,6 +112,7 @@ extern "C" int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type
                              MPI_Comm processes)
 {
   ++n_exchanges;
+  n_summed += n;
   return PMPI_Allreduce(in, out, n, type, how, processes);
 }
 
@@ -175,6 +179,41 @@ TEST(Operators, a_product_sends_what_ranks_share)
     EXPECT_EQ(sent[0], 2. * sizeof(double) * (row.processes.size() - 1.)) << n;
     expect_close(F.rows(), y.Values(), row.product(known));
   }
+}
+
+// A system takes one sum of the length of all constraints, for its solution. Its iterations sum the
+// norms and products of conjugate gradients, and neighbours send what they share: two rows each in
+// a product, and twice as many where they precondition the blocks of a common body.
+TEST(Operators, an_iteration_has_nothing_of_the_length_of_all_constraints)
+{
+  const taut::Communicator processes(MPI_COMM_WORLD);
+  for (const std::string preconditioner : {"diagonal", "Dirichlet"})
+    for (const std::size_t n : {40, 400})
+    {
+      const Row row(n, true);
+      taut::InterfaceParameters parameters;
+      parameters.form = "matrix-free";
+      parameters.preconditioner = preconditioner;
+      parameters.coarse_space = "none";
+      const auto F = taut::make_schur_complement(parameters, row.solvers, row.constraints);
+      F->setup(std::vector<double>(n, 0.));
+      std::vector<std::size_t> set(n);
+      std::iota(set.begin(), set.end(), 0);
+      const std::vector<double> known = some_multipliers(n), gaps = row.product(known);
+      std::vector<double> x;
+      ASSERT_TRUE(F->matrix().solve(set, gaps, 0., x)); // sets up for the rows
+      const long summed = n_summed, sent = n_sent, iterations = F->statistics().n_iterations;
+      ASSERT_TRUE(F->matrix().solve(set, gaps, 0., x));
+      for (std::size_t i = 0; i < n; ++i)
+        EXPECT_NEAR(x[i], known[i], 1e-9);
+      if (processes.size() == 1)
+        continue;
+      const long n_products = F->statistics().n_iterations - iterations;
+      EXPECT_GT(n_products, 0);
+      EXPECT_LE(n_summed - summed, static_cast<long>(n) + 6 * n_products + 60) << preconditioner;
+      EXPECT_LE(n_sent - sent, 10 * static_cast<long>(sizeof(double)) * (n_products + 8))
+          << preconditioner;
+    }
 }
 
 TEST(Operators, apply_and_aztecoo)
