@@ -41,10 +41,10 @@ namespace taut
 
     double length(const std::vector<double> &x)
     {
-      return std::sqrt(dot(x, x));
+      return std::sqrt(taut::dot(x, x));
     }
 
-    void add(std::vector<double> &y, const double factor, const std::vector<double> &x)
+    void add_multiple(std::vector<double> &y, const double factor, const std::vector<double> &x)
     {
       for (std::size_t i = 0; i < y.size(); ++i)
         y[i] += factor * x[i];
@@ -117,7 +117,7 @@ namespace taut
     const auto set_gradient = [&]
     {
       multiply(y, g);
-      add(g, 1., d);
+      add_multiple(g, 1., d);
       split(y);
       p = free_gradient;
     };
@@ -143,8 +143,8 @@ namespace taut
       const double step = is_flat ? longest : dot(g, p) / pHp;
       if (step <= longest)
       {
-        add(y, -step, p);
-        add(g, -step, Hp);
+        add_multiple(y, -step, p);
+        add_multiple(g, -step, Hp);
         for (std::size_t i = 0; i < y.size(); ++i)
           if (!problem->cones[i].is_free())
             y[i] = std::max(y[i], 0.);
@@ -156,8 +156,8 @@ namespace taut
         continue;
       }
       ++changes;
-      add(y, -longest, p);
-      add(g, -longest, Hp);
+      add_multiple(y, -longest, p);
+      add_multiple(g, -longest, Hp);
       for (std::size_t i = 0; i < y.size(); ++i)
         if (!problem->cones[i].is_free() &&
             y[i] <= std::numeric_limits<double>::epsilon() * longest * std::fabs(p[i]))
@@ -263,12 +263,12 @@ namespace taut
            ++update)
       {
         std::vector<double> alpha = amplitude;
-        add(alpha, 1., raised);
+        add_multiple(alpha, 1., raised);
         set_linear_term(alpha);
         has_minimum = descend(linear, wanted, y);
         set_multipliers();
         std::vector<double> more = penalty->weigh(penalty->unbalance(N));
-        add(amplitude, factor, more);
+        add_multiple(amplitude, factor, more);
         is_balanced = wanted <= known * size && penalty->unbalanced(N, known).empty();
         wanted = std::max(.1 * wanted, known * size);
       }
