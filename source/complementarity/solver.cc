@@ -151,7 +151,11 @@ namespace taut
     if (!is_found)
       return false;
     result.residual = mprgp.residual();
-    return result.residual.max <= options.tolerance || solve_with_newton(problem, matrix);
+    const ComplementarityResult found = result;
+    if (solve_with_newton(problem, matrix))
+      return true;
+    result = found;
+    return result.residual.max <= options.tolerance;
   }
 
   void ComplementaritySolver::solve_energy_ordered(const MixedComplementarityProblem &problem,

@@ -158,6 +158,7 @@ namespace taut
     is_changed.assign(body_constraints.size(), 1);
     is_stale = true;
     body_constraints.update();
+    F.update_rows();
     flexibilities.setup(S);
   }
 
