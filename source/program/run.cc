@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/rank_abort.h"
 #include "base/write_file.h"
+#include "output/progress.h"
 #include "output/scene_report.h"
 #include "output/scene_sketch.h"
 #include "simulation/network_file.h"
@@ -14,7 +15,6 @@
 #include "study/sweep.h"
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include "output/progress.h"
 #include <taut/simulation/simulation.h>
 
 #include <deal.II/base/multithread_info.h>
