@@ -311,6 +311,7 @@ namespace taut
       report_repeated_joints(links.names(motion->repeated_joints()));
     if (motion->n_repeated() > 0)
       log << motion->n_repeated() << " steps were repeated with a shorter one\n";
+    motion->discard_factors(); // before the check makes its own
     if (observed->signal() == 0)
       accuracy->check_steps([this] { return signal() != 0; });
   }

@@ -611,6 +611,14 @@ namespace taut
     contact_measures.load(archive);
   }
 
+  void Motion::discard_factors()
+  {
+    if (!parts)
+      return;
+    parts->step.reset();
+    parts->is_prepared = false;
+  }
+
   void Motion::reset_caches(const std::vector<double> &largest_rates)
   {
     Parts &p = *parts;

@@ -94,6 +94,9 @@ namespace taut
     Motion(Motion &other, double step, const StepParameters &steps,
            std::vector<LongestStep> longest_steps, long n_steps);
 
+    /// Frees the factors, which take most of the memory; a further step makes them anew.
+    void discard_factors();
+
     /// Advances by one accepted step. Throws UserError with time and constraint if its residuals
     /// exceeds the contact tolerance. After any exception the motion is that before the step.
     void advance();
