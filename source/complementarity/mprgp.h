@@ -14,13 +14,13 @@ namespace taut
    * Modified proportioning with reduced gradient projections, MPRGP (Z. Dostal, Optimal Quadratic
    * Programming Algorithms, Springer 2009, chapter 5), with the augmented Lagrangian SMALBE
    * (chapter 6) for floating bodies. Use it where F has no entries: it takes products with F alone,
-   * and lowers the energy in each of them.
+   * and no step raises the energy.
    *
    * Rows are scaled to F_ii = 1. Conjugate gradients run on the free rows and the closed ones, as
    * long as the free gradient outweighs the chopped one; a step that would make a multiplier
-   * negative ends at zero, with a projected gradient step of length 1.9 / |F|; rows open by a step
-   * along the chopped gradient. With a positive definite F the energy falls by at least the factor
-   * 1 - a l / (2 + 2 g^2) in a step, with a = 1.9 / |F|, g = 1, and l the least eigenvalue. Of
+   * negative ends at zero, with a projected gradient step of length a / |F|; rows open by a step
+   * along the chopped gradient. With the least eigenvalue l of a definite F, the energy above its
+   * minimum falls at least by the factor 1 - (2 - a) l / (4 a |F|) in a step, for 1 <= a < 2. Of
    * dependent rows there is no rate.
    */
   class Mprgp

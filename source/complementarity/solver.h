@@ -29,9 +29,9 @@ namespace taut
 
   /**
    * Solves a sequence of mixed complementarity problems, one per step of a run. Each starts from
-   * the active set of the problem before. A problem with bilateral rows only takes one linear
-   * solve, and so does a problem whose active set has not changed. Bilateral rows that repeat
-   * others get multipliers of least norm, see RepeatedRows.
+   * the active set of the problem before. By Newton's method a problem with bilateral rows only
+   * takes one linear solve, and so does a problem whose active set has not changed. Bilateral rows
+   * that repeat others get multipliers of least norm, see RepeatedRows.
    */
   class ComplementaritySolver
   {

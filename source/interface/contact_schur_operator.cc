@@ -30,6 +30,8 @@ namespace taut
 
   void ContactSchurOperator::update_rows()
   {
+    if (rows().communicator().size() == 1)
+      return;
     std::vector<std::size_t> held = body_constraints.rows();
     const auto holds = [&](const std::size_t i)
     { return std::binary_search(rows().held().begin(), rows().held().end(), i); };
@@ -55,8 +57,6 @@ namespace taut
   void ContactSchurOperator::add_solves() const
   {
     motion.assign(multiplier.size(), 0.);
-    if (std::any_of(multiplier.begin(), multiplier.end(), [](const double x) { return x != 0.; }))
-      ++applications;
     for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
       // Body after body: its vector stays in the cache between loads, solution and motions.
@@ -83,14 +83,14 @@ namespace taut
   void ContactSchurOperator::apply(const std::vector<double> &x, std::vector<double> &y) const
   {
     rows().pick(x, scaled);
-    std::vector<double> product;
-    apply_owned(scaled, product);
-    rows().gather(product, y);
+    apply_owned(scaled, projected);
+    rows().gather(projected, y);
   }
 
   /// y = F x on owned rows.
   void ContactSchurOperator::apply_owned(const std::vector<double> &x, std::vector<double> &y) const
   {
+    ++applications;
     multiplier.resize(rows().held().size());
     rows().copy_to_holders(x.data(), multiplier.data());
     add_solves();

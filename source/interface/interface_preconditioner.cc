@@ -47,10 +47,8 @@ namespace taut
       return;
     T.setup(active, is_changed);
     add_springs(active, diagonal, compliance);
-    set_scaling();
     own_rows.reset();
-    if (!has_springs && rows.communicator().size() > 1)
-      set_own_rows(rows);
+    set_scaling(rows);
   }
 
   /// The elastic rows as springs between the DoFs, and the factor of T with them.
@@ -84,7 +82,7 @@ namespace taut
   }
 
   /// Computes D^-1 B_r, and Q from rows with a common DoF.
-  void InterfacePreconditioner::set_scaling()
+  void InterfacePreconditioner::set_scaling(const RowMap &rows)
   {
     const MatrixEntries &B = T.constraints();
     const std::vector<double> D = T.diagonal();
@@ -100,12 +98,12 @@ namespace taut
     SymmetricEntries entries;
     std::vector<double> diagonal(other.size(), 0.);
     is_rigid.assign(other.size(), 0);
-    for (const auto &rows : at_dof)
-      for (std::size_t a = 0; a < rows.size(); ++a)
+    for (const auto &at : at_dof)
+      for (std::size_t a = 0; a < at.size(); ++a)
       {
         for (std::size_t b = 0; b < a; ++b)
-          entries.add(B.row[rows[a]], B.row[rows[b]], scaled_B.value[rows[a]] * B.value[rows[b]]);
-        diagonal[B.row[rows[a]]] += scaled_B.value[rows[a]] * B.value[rows[a]];
+          entries.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
+        diagonal[B.row[at[a]]] += scaled_B.value[at[a]] * B.value[at[a]];
       }
     for (std::size_t i = 0; i < diagonal.size(); ++i)
     {
@@ -118,11 +116,12 @@ namespace taut
     }
     entries.compress();
     Q.factor(diagonal.size(), entries, 0.);
-    Q_entries = std::move(entries);
+    if (rows.communicator().size() > 1 && !has_springs)
+      set_own_rows(rows, entries);
   }
 
   /// The blocks of Q that the bodies of this rank see.
-  void InterfacePreconditioner::set_own_rows(const RowMap &rows)
+  void InterfacePreconditioner::set_own_rows(const RowMap &rows, const SymmetricEntries &Q_entries)
   {
     const std::size_t first = T.first_own_dof(), end = first + T.n_own_dofs();
     boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
@@ -153,7 +152,7 @@ namespace taut
       if (is_seen[blocks.find_set(static_cast<std::size_t>(Q_entries.row[e]))])
         of_held.add(position[Q_entries.row[e]], position[Q_entries.column[e]], Q_entries.value[e]);
     of_held.compress();
-    own_Q.factor(held.size(), of_held, 0.);
+    rows.communicator().agree([&] { own_Q.factor(held.size(), of_held, 0.); });
     place.clear();
     for (const std::size_t i : rows.owned())
       place.push_back(position[i]);
@@ -176,16 +175,18 @@ namespace taut
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
   {
+    if (!is_diagonal && !own_rows)
+    {
+      owners->gather(r, all);
+      apply_to_all(all, image);
+      owners->pick(image, z);
+      return;
+    }
     z.resize(r.size());
     for (std::size_t p = 0; p < r.size(); ++p)
       z[p] = own[owners->owned()[p]] * r[p];
-    if (is_diagonal)
-      return;
     if (own_rows)
-      return apply_by_owners(r, z);
-    owners->gather(r, all);
-    apply_to_all(all, image);
-    owners->pick(image, z);
+      apply_by_owners(r, z);
   }
 
   /// Without springs: adds the rigid rows to z, on owned rows.

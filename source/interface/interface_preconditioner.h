@@ -62,8 +62,8 @@ namespace taut
   private:
     void add_springs(const std::vector<char> &active, const std::vector<double> &diagonal,
                      const std::vector<double> &compliance);
-    void set_scaling();
-    void set_own_rows(const RowMap &rows);
+    void set_scaling(const RowMap &rows);
+    void set_own_rows(const RowMap &rows, const SymmetricEntries &Q_entries);
     void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
@@ -72,8 +72,7 @@ namespace taut
 
     // The same on all ranks.
     SparseCholesky inverse_T;
-    MatrixEntries scaled_B; ///< D^-1 B_r, in the order of the constraints of T
-    SymmetricEntries Q_entries;
+    MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
     SparseCholesky Q;              ///< of the rigid rows, 1 on the others
     std::vector<char> is_rigid;    ///< a row of Q
     std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0

@@ -81,7 +81,7 @@ namespace taut
         }
       first += block.dofs.size();
     }
-    own_T = T;
+    own_T = processes.size() > 1 ? T : SymmetricEntries();
     for (std::size_t e = 0; e < own_T.size(); ++e)
     {
       own_T.row[e] -= static_cast<int>(first_own);

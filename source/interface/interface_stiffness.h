@@ -51,7 +51,8 @@ namespace taut
     std::size_t first_own_dof() const { return first_own; }
     std::size_t n_own_dofs() const { return n_own; }
 
-    /// The same without springs for the DoFs of this rank alone, which no others are coupled with.
+    /// The same without springs for the DoFs of this rank alone, which no others are coupled with;
+    /// on several ranks.
     void multiply_own(const std::vector<double> &u, std::vector<double> &f) const;
 
   private:

@@ -164,6 +164,13 @@ namespace taut
     {
       if (walk && walk->on(element, known))
       {
+        if (!known.is_resolved)
+          throw EntryError(origin,
+                           to_text(std::setprecision(4), "load '", name,
+                                   "' is narrower than a hundredth of an element near s = ",
+                                   element.begin, " m at t = ", t,
+                                   " s: take a smaller Element size, a wider load, or a load of "
+                                   "type 'moving', which acts at a point"));
         for (unsigned int q = 0; q < ElementLoad::n_points && known.size > 0.; ++q)
           element.shapes[q].add_to(known.values[q], P);
         continue;
@@ -171,7 +178,7 @@ namespace taut
       const ElementLoad on = over(element, t, typical);
       for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
         element.shapes[q].add_to(on.values[q], P);
-      if (magnitude.depends_on_time())
+      if (magnitude.depends_on_time() && !shape)
         check.add(element, on);
     }
     check.end();

@@ -27,8 +27,13 @@ namespace taut
     /// element is 4e-7 of it.
     constexpr double piece_of_jump = 4e-9;
 
-    /// Pieces in a bin; a jump takes some forty. With more, the formula oscillates.
+    /// Pieces in a bin, and parts of it at which a piece is no longer halved; a jump takes some
+    /// forty. With more, the formula oscillates.
     constexpr std::size_t most_in_bin = 4096;
+    constexpr double shortest_piece = 1e-13;
+
+    /// A load below this is zero: errors of it have no digits [N/m].
+    constexpr double no_load = 1e-290;
 
     /// Error of a polynomial over the largest value in its bin, or a thousandth of the largest at
     /// the start: a tenth of what LoadIntegral promises. A piece below this error is zero.
@@ -122,23 +127,31 @@ namespace taut
   TravellingShape::Bin TravellingShape::look(const std::size_t bin) const
   {
     Bin result;
+    result.is_looked_at = true;
     try
     {
       evaluate(bin, samples, sampled);
-      result.is_known =
-          resolve(bin, 0., 1., std::max(largest_of(sampled), least_part * largest), result);
+      const double most = std::max(largest_of(sampled), least_part * largest);
+      if (most < no_load)
+        result.pieces.push_back({0., 1., true, {}});
+      result.is_known = most < no_load || resolve(bin, 0., 1., most, result);
+      for (unsigned int k = 1; k + 1 < n_samples; ++k)
+        if (sampled[k] != 0. && sampled[k - 1] == 0. && sampled[k + 1] == 0.)
+          result.narrow = samples[k];
     }
     catch (const UserError &)
     {
       // An error of the run, if the place without a value comes onto the wire.
     }
+    if (!result.is_known)
+      result.pieces.clear();
     return result;
   }
 
   bool TravellingShape::resolve(const std::size_t bin, const double begin, const double end,
                                 const double most, Bin &result) const
   {
-    if (result.pieces.size() == most_in_bin)
+    if (result.pieces.size() == most_in_bin || end - begin < shortest_piece)
       return false;
     Piece piece{begin, end, true, {}};
     const double length = end - begin;
@@ -182,8 +195,10 @@ namespace taut
   bool TravellingShape::Walk::move_to(const double u)
   {
     const std::size_t k = static_cast<std::size_t>(u);
-    while (shape.bins.size() <= k)
-      shape.bins.push_back(shape.look(shape.bins.size()));
+    if (shape.bins.size() <= k)
+      shape.bins.resize(k + 1);
+    if (!shape.bins[k].is_looked_at)
+      shape.bins[k] = shape.look(k);
     if (!shape.bins[k].is_known)
       return false;
     const std::vector<Piece> &pieces = shape.bins[k].pieces;
@@ -202,6 +217,7 @@ namespace taut
   bool TravellingShape::Walk::on(const LoadedElement &element, ElementLoad &load)
   {
     load.size = 0.;
+    load.is_resolved = true;
     const double u0 = place(element.begin + element.length), u1 = place(element.begin);
     if (!(u0 >= from && u1 <= to))
     {
@@ -211,6 +227,8 @@ namespace taut
         if (!shape.bins[k].is_known)
           return false;
     }
+    if (const double narrow = shape.bins[bin].narrow + bin; narrow >= u0 && narrow <= u1)
+      load.is_resolved = false;
     if (u1 > to)
     {
       integrate(element, u0, u1, load);

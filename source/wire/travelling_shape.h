@@ -57,7 +57,8 @@ namespace taut
     };
     struct Bin
     {
-      bool is_known = false;
+      bool is_looked_at = false, is_known = false;
+      double narrow = -1.; ///< where one place alone sees a load; below 0: nowhere
       std::vector<Piece> pieces;
     };
 
@@ -83,7 +84,7 @@ namespace taut
 
     /// The load of the next element, with its values; its size is 0 where these are. False if the
     /// shape is not known there: at times before 0, where the formula has no value, and where too
-    /// many pieces do not resolve it.
+    /// many pieces do not resolve it. A load that one place alone sees is not resolved.
     bool on(const LoadedElement &element, ElementLoad &load);
 
   private:

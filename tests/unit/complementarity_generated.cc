@@ -653,6 +653,24 @@ namespace
     EXPECT_EQ(n_found_cycling, n_cycling);
   }
 
+  TEST(complementarity_generated, mprgp_leaves_rows_out_that_take_no_part)
+  {
+    // Of two rows that would share -3 m, one takes no part: the other carries it alone.
+    DenseOperator F(2);
+    F.set(0, 0, 2.);
+    F.set(1, 0, 1.);
+    F.set(1, 1, 2.);
+    MixedComplementarityProblem problem;
+    problem.cones = {Cone::half_line(), Cone::zero()};
+    problem.free_gap = {-3., -3.};
+    Mprgp solver;
+    MixedComplementaritySolution solution;
+    ASSERT_TRUE(solver.solve(problem, F, solution));
+    EXPECT_NEAR(solution.multiplier[0], 1.5, 1e-8);
+    EXPECT_EQ(solution.multiplier[1], 0.);
+    EXPECT_LE(solver.residual().max, 1e-8);
+  }
+
   TEST(complementarity_generated, mprgp_keeps_its_rate)
   {
     // Source: the bound of the rate with the eigenvalues of a circulant, 1 - 2 c cos(2 pi k / n),
@@ -675,7 +693,7 @@ namespace
         problem.free_gap.push_back(generator.integer(19) - 9.5);
       }
       const double least = 1. - 2. * c, norm = 1. + 2. * c,
-                   rate = 1. - 1.9 / (1.1 * norm) * least / 4.,
+                   rate = 1. - .1 * least / (4. * 1.9 * 1.1 * norm),
                    bound = 2. * std::log(error * error * least / norm) / std::log(rate);
       Mprgp solver;
       MixedComplementaritySolution solution;

@@ -250,6 +250,10 @@ TEST(DistributedLoads, what_cannot_be_integrated_is_refused)
     for (const char *const part :
          {"load 'load' is 0.02 m wide", "0.14 m wide, a fifth of an element"})
       EXPECT_TRUE(has(narrow, part)) << narrow;
+    const std::string travelling = error_of(kind, "100*(abs(s-20*t-0.03)<0.0014)", .995);
+    EXPECT_TRUE(has(travelling, "narrower than a hundredth of an element")) << travelling;
+    EXPECT_EQ(error_of(kind, "1e300*exp(-((s-20*t+1195)/5)^2)", .995), "");
+    EXPECT_EQ(error_of(kind, "3*exp(-((s-700*t+595)/8)^2)", .995), "");
     for (const std::string factor : {"", "(1+t)*"})
     {
       const std::string noise =

@@ -26,7 +26,7 @@ namespace taut
   class ContactSchurOperator : public ConstraintOperator
   {
   public:
-    /// The arguments are kept by reference.
+    /// The arguments are kept by reference. Called by all ranks together.
     ContactSchurOperator(Lasting<FactoredStructure> solvers,
                          Lasting<BodyConstraints> body_constraints, std::size_t n_constraints);
 
@@ -56,7 +56,7 @@ namespace taut
     /// y = D F D x on the rows of F; the identity on other rows. On owned rows.
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y) const;
 
-    /// Number of products with nonzero vectors, and of systems with one A_k for these on this rank.
+    /// Number of products, and of systems with one A_k for these on this rank.
     long n_applications() const { return applications; }
     long n_local_solves() const { return local_solves; }
 

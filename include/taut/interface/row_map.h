@@ -19,7 +19,8 @@ namespace taut
    * Which rows of the constraints this rank holds, and which of them it owns. A rank holds the rows
    * with a term on one of its bodies. Each row has one owner, the first rank that holds it, or
    * rank 0 if none does. Vectors over owned rows are those of an Epetra_Map; ranks that hold a
-   * common row send each other their shares, and no others.
+   * common row send each other their shares, and no others; Epetra has all ranks wait for each
+   * other before.
    *
    * On one rank all rows are held and owned. All functions but the sizes are called by all ranks
    * together.
@@ -38,8 +39,6 @@ namespace taut
 
     /// The rows that this rank holds, ascending: the owned ones among them.
     const std::vector<std::size_t> &held() const { return rows; }
-
-    std::size_t n_rows() const { return n; }
 
     /// Of the owned rows, numbered as they are; each row on one rank.
     const Epetra_Map &map() const { return *owned_map; }
