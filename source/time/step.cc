@@ -91,7 +91,8 @@ namespace taut
   {
     InterfaceStatistics result = earlier;
     for (const ReusedValues &one : kept)
-      result += one.equations->interface().statistics();
+      if (one.is_prepared)
+        result += one.equations->interface().statistics();
     return result;
   }
 

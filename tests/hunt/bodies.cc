@@ -353,7 +353,7 @@ namespace
                  step = short_number(period / random.decades(2., 3.3));
     const int n_steps = std::lround(random.uniform(.4, 1.2) * period / step);
     SceneText text;
-    text.line() << std::setprecision(17) << "Gravity = 0, -" << g << "\nStart = undeformed";
+    text.line() << "Gravity = 0, -" << g << "\nStart = undeformed";
     for (int k = 0; k < 2; ++k)
     {
       const std::string name = k == 0 ? "first" : "second";
