@@ -280,32 +280,9 @@ namespace
     return {text.text(), verification::largest(N) > 0. ? N : Vector()};
   }
 
-  /// A block between smooth walls that is held above a floor inside it.
-  BodyScene pressed_block(Random &random)
-  {
-    const double w = short_number(random.decades(-2, 1)),
-                 h = short_number(w * random.decades(-.7, .7)),
-                 E = short_number(random.decades(5, 11)),
-                 nu = short_number(random.uniform(0., .45)),
-                 overlap = short_number(h * random.decades(-7, -3.5));
-    SceneText text;
-    text.line() << "Generator = network; Gravity = 0, 0; Start = equilibrium";
-    text.line() << "Body block: Type = solid; Young's modulus = " << E
-                << "; Poisson's ratio = " << nu
-                << "; Density = 1000; Fixed boundaries = 3; Symmetry boundaries = 0, 1; Degree = "
-                << random.integer(1, 2);
-    text.line() << "Body block/Mesh: Generator = subdivided_hyper_rectangle; Arguments = "
-                << random.integer(1, 7) << ", " << random.integer(1, 7) << " : 0, 0 : " << w << ", "
-                << h;
-    text.line() << "Contact floor: Slave = block: 2; Obstacle = plane; Point = 0, " << overlap
-                << "; Direction = 0, 1";
-    return {
-        text.text(), {E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)) * overlap / h * w}, Kind::sum};
-  }
-
-  /// The same above a floor with half a wave, so flat that all of the block touches it: the wave
-  /// changes pressures, and not their sum.
-  BodyScene block_on_waves(Random &random)
+  /// A block between smooth walls that is held above a floor inside it. With half a wave the floor
+  /// is so flat that all of the block touches it: the wave changes pressures, and not their sum.
+  BodyScene block(Random &random, const bool has_wave)
   {
     const double w = short_number(random.decades(-2, 1)),
                  h = short_number(w * random.decades(-.7, .7)),
@@ -320,12 +297,24 @@ namespace
                 << "; Density = 1000; Fixed boundaries = 3; Symmetry boundaries = 0, 1; Degree = "
                 << random.integer(1, 2);
     text.line() << "Body block/Mesh: Generator = subdivided_hyper_rectangle; Arguments = "
-                << random.integer(4, 16) << ", " << random.integer(2, 7) << " : 0, 0 : " << w
-                << ", " << h;
-    text.line() << "Contact floor: Slave = block: 2; Obstacle = height; Direction = 0, 1; Height = "
-                << overlap << "+" << wave << "*cos(pi*x/" << w << ")";
+                << random.integer(has_wave ? 4 : 1, has_wave ? 16 : 7) << ", "
+                << random.integer(has_wave ? 2 : 1, 7) << " : 0, 0 : " << w << ", " << h;
+    text.line() << "Contact floor: Slave = block: 2; Direction = 0, 1; Obstacle = "
+                << (has_wave ? "height; Height = " + number(overlap) + "+" + number(wave) +
+                                   "*cos(pi*x/" + number(w) + ")"
+                             : "plane; Point = 0, " + number(overlap));
     return {
         text.text(), {E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)) * overlap / h * w}, Kind::sum};
+  }
+
+  BodyScene pressed_block(Random &random)
+  {
+    return block(random, false);
+  }
+
+  BodyScene block_on_waves(Random &random)
+  {
+    return block(random, true);
   }
 
   /// Two rigid bodies that swing from rest, the second one on a hinge at the first one.
