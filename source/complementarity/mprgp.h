@@ -49,7 +49,7 @@ namespace taut
     std::unique_ptr<NullSpacePenalty> penalty;
     std::vector<double> scale;     ///< F_ii^-1/2
     double norm = 0., factor = 0.; ///< of F in scaled rows, and of the penalty
-    std::vector<double> multiplier, gap, g, free_gradient, reduced, chopped;
+    std::vector<double> multiplier, g, free_gradient, reduced, chopped;
     unsigned int products = 0, changes = 0;
     ComplementarityResidual final_residual;
   };
