@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/interface/row_map.h>
 
+#include <Epetra_Import.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_SerialComm.h>
 #include <Epetra_Util.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace taut
 {
   namespace
   {
+    /// Of the messages between neighbours; Epetra's are above 24000, and those of Taut alone come
+    /// in the order of their calls.
+    constexpr int tag = 4800;
+
     /// AztecOO, where it knows MPI, takes nothing but a communicator of MPI.
     std::unique_ptr<Epetra_Comm> epetra_of(const Communicator &processes)
     {
@@ -66,24 +72,85 @@ namespace taut
 
   void RowMap::plan()
   {
-    importer = std::make_unique<const Epetra_Import>(*held_map, *owned_map);
-    held_work = std::make_unique<Epetra_Vector>(*held_map);
-    owned_work = std::make_unique<Epetra_Vector>(*owned_map);
+    own_held.clear();
+    for (const std::size_t i : own)
+      own_held.push_back(held_map->LID(static_cast<int>(i)));
+    neighbours.clear();
+    if (processes.size() == 1)
+      return;
+    const Epetra_Import importer(*held_map, *owned_map);
+    std::map<int, Neighbour> by_rank;
+    for (int e = 0; e < importer.NumExportIDs(); ++e)
+      by_rank[importer.ExportPIDs()[e]].lent.push_back(importer.ExportLIDs()[e]);
+    const std::vector<int> numbers(rows.begin(), rows.end());
+    std::vector<int> owners(rows.size()), positions(rows.size());
+    owned_map->RemoteIDList(static_cast<int>(rows.size()), numbers.data(), owners.data(),
+                            positions.data());
+    for (std::size_t p = 0; p < rows.size(); ++p)
+      if (owners[p] != static_cast<int>(processes.rank()))
+        by_rank[owners[p]].borrowed.push_back(static_cast<int>(p));
+    for (auto &[rank, neighbour] : by_rank)
+    {
+      // Both sides then have their common rows in ascending order.
+      std::sort(neighbour.lent.begin(), neighbour.lent.end());
+      neighbour.rank = rank;
+      const std::size_t most = std::max(neighbour.lent.size(), neighbour.borrowed.size());
+      neighbour.sent.resize(most);
+      neighbour.received.resize(most);
+      neighbours.push_back(std::move(neighbour));
+    }
+    messages.reserve(2 * neighbours.size());
+  }
+
+  void RowMap::receive(const Rows rows_of) const
+  {
+    messages.clear();
+    for (const Neighbour &with : neighbours)
+      if (const int size = static_cast<int>((with.*rows_of).size()); size > 0)
+        MPI_Irecv(with.received.data(), size, MPI_DOUBLE, with.rank, tag, processes.of_mpi(),
+                  &messages.emplace_back());
+  }
+
+  void RowMap::send(const double *const values, const Rows rows_of) const
+  {
+    for (const Neighbour &with : neighbours)
+      if (const std::vector<int> &positions = with.*rows_of; !positions.empty())
+      {
+        for (std::size_t e = 0; e < positions.size(); ++e)
+          with.sent[e] = values[positions[e]];
+        MPI_Isend(with.sent.data(), static_cast<int>(positions.size()), MPI_DOUBLE, with.rank, tag,
+                  processes.of_mpi(), &messages.emplace_back());
+      }
+  }
+
+  void RowMap::wait() const
+  {
+    if (!messages.empty())
+      MPI_Waitall(static_cast<int>(messages.size()), messages.data(), MPI_STATUSES_IGNORE);
   }
 
   void RowMap::copy_to_holders(const double *values, double *on_held) const
   {
-    std::copy_n(values, own.size(), owned_work->Values());
-    held_work->Import(*owned_work, *importer, Insert);
-    std::copy_n(held_work->Values(), rows.size(), on_held);
+    receive(&Neighbour::borrowed);
+    send(values, &Neighbour::lent);
+    for (std::size_t p = 0; p < own.size(); ++p)
+      on_held[own_held[p]] = values[p];
+    wait();
+    for (const Neighbour &owner : neighbours)
+      for (std::size_t e = 0; e < owner.borrowed.size(); ++e)
+        on_held[owner.borrowed[e]] = owner.received[e];
   }
 
   void RowMap::add_shares(const double *on_held, double *sums) const
   {
-    std::copy_n(on_held, rows.size(), held_work->Values());
-    owned_work->PutScalar(0.);
-    owned_work->Export(*held_work, *importer, Add);
-    std::copy_n(owned_work->Values(), own.size(), sums);
+    receive(&Neighbour::lent);
+    send(on_held, &Neighbour::borrowed);
+    for (std::size_t p = 0; p < own.size(); ++p)
+      sums[p] = on_held[own_held[p]];
+    wait();
+    for (const Neighbour &holder : neighbours)
+      for (std::size_t e = 0; e < holder.lent.size(); ++e)
+        sums[holder.lent[e]] += holder.received[e];
   }
 
   void RowMap::gather(const std::vector<double> &values, std::vector<double> &all) const

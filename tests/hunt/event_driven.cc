@@ -58,7 +58,7 @@ namespace hunt
         state[n + j] += inverse(j, i) * model.start_velocity[parts.with_mass[i]] *
                         (1. + disturbance * (i % 2 ? -1. : 1.));
       }
-    state[parts.n_state() - 3] = state[parts.n_state() - 2] = 1.;
+    state[parts.one()] = state[parts.one() + 1] = 1.;
     std::vector<std::size_t> touching;
     for (std::size_t r = 0; r < modes.size(); ++r)
     {
@@ -111,7 +111,7 @@ namespace hunt
         continue;
       }
       const Pieces &spring = parts.springs[r];
-      const std::size_t piece = modes[r] - 1, one = parts.n_state() - 3;
+      const std::size_t piece = modes[r] - 1, one = parts.one();
       Vector deeper = current.gap(r), less = deeper;
       for (double &x : less)
         x = -x;
@@ -207,6 +207,22 @@ namespace hunt
   }
 
   void EventDriven::advance(const double end)
+  {
+    const Pulse &pulse = model.pulse;
+    for (; pulse.width > 0. && n_kinks < 3; ++n_kinks)
+    {
+      const double kink = pulse.begin + .5 * n_kinks * pulse.width;
+      if (kink > end)
+        break;
+      move(kink);
+      state[parts.pulse()] = n_kinks == 1 ? 1. : 0.;
+      state[parts.pulse() + 1] = n_kinks == 2 ? 0. : pulse.rise() * (n_kinks == 1 ? -1. : 1.);
+    }
+    move(end);
+  }
+
+  /// To a time up to which the pulse has no kink.
+  void EventDriven::move(const double end)
   {
     while (end - time > 1e-8 * (end - time + largest_step) && end > time)
     {

@@ -41,6 +41,7 @@ namespace hunt
     };
 
     void set_start(double disturbance);
+    void move(double end);
     const Phase &phase();
     const std::vector<Watched> &watched();
     double value(const Watched &event, const Vector &z, double t) const;
@@ -65,6 +66,7 @@ namespace hunt
     std::map<Modes, std::vector<Watched>> watches;
     double speed = 0., work = 0.;
     unsigned int n_events = 0, n_at_once = 0;
+    int n_kinks = 0; ///< of the pulse, that are past
   };
 
   /// Samples at the given times, the first of which is 0.

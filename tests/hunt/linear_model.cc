@@ -5,8 +5,8 @@
 
 namespace hunt
 {
-  LinearModel::LinearModel(const taut::StepView &view, const double frequency)
-      : frequency(frequency)
+  LinearModel::LinearModel(const taut::StepView &view, const double frequency, const Pulse &pulse)
+      : frequency(frequency), pulse(pulse)
   {
     for (std::size_t k = 0; k < view.structure.size(); ++k)
     {
@@ -100,18 +100,22 @@ namespace hunt
 
   void LinearModel::find_loads(const taut::StepView &view)
   {
-    const double period = frequency > 0. ? 2. * std::acos(-1.) / frequency : 1.;
+    const double period = frequency > 0. ? 2. * std::acos(-1.) / frequency : 0.,
+                 peak = pulse.begin + .5 * pulse.width, t = frequency > 0. ? .37 * period : 1.;
     const Vector at_start = load(view, 0.), quarter = load(view, .25 * period),
-                 half = load(view, .5 * period), other = load(view, .37 * period);
-    const double c = std::cos(.37 * period * frequency), s = std::sin(.37 * period * frequency);
+                 half = load(view, .5 * period), highest = load(view, peak), other = load(view, t);
+    const double c = std::cos(t * frequency), s = std::sin(t * frequency);
     for (std::size_t i = 0; i < size(); ++i)
     {
       constant_load.push_back(.5 * (at_start[i] + half[i]));
       cosine_load.push_back(frequency > 0. ? at_start[i] - constant_load[i] : 0.);
       sine_load.push_back(frequency > 0. ? quarter[i] - constant_load[i] : 0.);
-      const double expected = constant_load[i] + c * cosine_load[i] + s * sine_load[i];
-      if (std::fabs(other[i] - expected) > 1e-9 * (std::fabs(at_start[i]) + std::fabs(quarter[i])))
-        throw std::runtime_error("a load is no constant and one frequency");
+      pulse_load.push_back(pulse.width > 0. ? highest[i] - at_start[i] : 0.);
+      const double expected =
+          constant_load[i] + c * cosine_load[i] + s * sine_load[i] + pulse.at(t) * pulse_load[i];
+      if (std::fabs(other[i] - expected) >
+          1e-9 * (std::fabs(at_start[i]) + std::fabs(quarter[i]) + std::fabs(highest[i])))
+        throw std::runtime_error("a load is no constant, one frequency or the pulse");
     }
   }
 

@@ -3,6 +3,7 @@
 #define taut_hunt_linear_model_h
 
 #include "history.h"
+#include "scenes.h"
 
 #include "base/dot.h"
 #include <taut/output/observer.h>
@@ -16,16 +17,18 @@ namespace hunt
 
   /// A scene of linear bodies in dense matrices, free DoFs only:
   ///
-  ///     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
+  ///     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + Pp p(t) + B N.
   ///
-  /// Prescribed places are sines of w, too; what they do to the free DoFs is part of the loads.
+  /// A pulse p(t) rises from 0 to 1 and falls to 0. Prescribed places are sines of w, too; what
+  /// they do to the free DoFs is part of the loads.
   ///
   /// The discretisation in space is the program's, so that what differs is the integration in time.
   struct LinearModel
   {
-    /// From the start of a run. @p frequency is that of its loads, 0 if they are constant [rad/s].
-    /// Throws std::runtime_error if a load has another course, or if a body is not linear.
-    LinearModel(const taut::StepView &start, double frequency);
+    /// From the start of a run. @p frequency is that of its loads, 0 if they are constant [rad/s];
+    /// only these may have a pulse. Throws std::runtime_error if a load has another course, or if a
+    /// body is not linear.
+    LinearModel(const taut::StepView &start, double frequency, const Pulse &pulse);
 
     /// A constraint, D = terms . u + gap, see taut::ConstraintData.
     struct Row
@@ -53,8 +56,9 @@ namespace hunt
     Vector places(const Vector &u) const;
 
     dealii::FullMatrix<double> mass, damping, stiffness;
-    Vector constant_load, cosine_load, sine_load;
+    Vector constant_load, cosine_load, sine_load, pulse_load;
     double frequency;
+    Pulse pulse;
     std::vector<Row> rows; ///< the fixed ones; empty if a constraint moves
     bool has_moving = false;
     Vector start, start_velocity;

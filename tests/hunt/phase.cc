@@ -146,7 +146,7 @@ namespace hunt
   void Phase::find_displacements(const Modes &modes)
   {
     const LinearModel &model = parts.model;
-    const std::size_t n = parts.n_q(), one = parts.n_state() - 3, n_z = parts.without_mass.size();
+    const std::size_t n = parts.n_q(), one = parts.one(), n_z = parts.without_mass.size();
     u.assign(model.size(), Vector(parts.n_state(), 0.));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
@@ -175,6 +175,7 @@ namespace hunt
       right[a][one] = constant[i];
       right[a][one + 1] = model.cosine_load[i];
       right[a][one + 2] = model.sine_load[i];
+      right[a][parts.pulse()] = model.pulse_load[i];
       for (const std::size_t j : parts.with_mass)
         right[a] = scaled_sum(right[a], -K(i, j), u[j]);
     }
@@ -194,7 +195,7 @@ namespace hunt
   void Phase::find_forces(const Modes &modes)
   {
     const LinearModel &model = parts.model;
-    const std::size_t n = parts.n_q(), one = parts.n_state() - 3;
+    const std::size_t n = parts.n_q(), one = parts.one();
     for (std::size_t r = 0; r < modes.size(); ++r)
       if (modes[r] > 0 && !model.rows[r].rigid())
       {
@@ -212,6 +213,7 @@ namespace hunt
       force[a][one] = model.constant_load[i];
       force[a][one + 1] = model.cosine_load[i];
       force[a][one + 2] = model.sine_load[i];
+      force[a][parts.pulse()] = model.pulse_load[i];
       for (std::size_t j = 0; j < model.size(); ++j)
         if (model.stiffness(i, j) != 0.)
           force[a] = scaled_sum(force[a], -model.stiffness(i, j), u[j]);
@@ -263,7 +265,7 @@ namespace hunt
 
   void Phase::assemble()
   {
-    const std::size_t n = parts.n_q(), m = forces.size(), size = parts.n_state(), one = size - 3;
+    const std::size_t n = parts.n_q(), m = forces.size(), size = parts.n_state(), one = parts.one();
     A.assign(size * size, 0.);
     for (std::size_t j = 0; j < n; ++j)
     {
@@ -272,6 +274,7 @@ namespace hunt
     }
     for (std::size_t r = 0; r < m; ++r)
       std::copy(forces[r].begin(), forces[r].end(), A.begin() + (2 * n + r) * size);
+    A[parts.pulse() * size + parts.pulse() + 1] = 1.;
     A[(one + 1) * size + one + 2] = -parts.model.frequency;
     A[(one + 2) * size + one + 1] = parts.model.frequency;
     const double rate =
@@ -283,7 +286,7 @@ namespace hunt
   {
     Vector result(parts.n_state(), 0.);
     const LinearModel::Row &data = parts.model.rows[row];
-    result[parts.n_state() - 3] = data.gap;
+    result[parts.one()] = data.gap;
     for (std::size_t i = 0; i < u.size(); ++i)
       if (data.terms[i] != 0.)
         result = scaled_sum(result, data.terms[i], u[i]);

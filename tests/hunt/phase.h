@@ -26,7 +26,9 @@ namespace hunt
     ModelParts(const LinearModel &model, double reach);
 
     std::size_t n_q() const { return with_mass.size(); }
-    std::size_t n_state() const { return 2 * n_q() + model.rows.size() + 3; }
+    std::size_t n_state() const { return 2 * n_q() + model.rows.size() + 5; }
+    std::size_t one() const { return n_state() - 3; }
+    std::size_t pulse() const { return n_state() - 5; }
 
     const LinearModel &model;
     std::vector<std::size_t> with_mass, without_mass;
@@ -38,7 +40,7 @@ namespace hunt
 
   /// The motion while no constraint changes its mode: z' = A z for the state
   ///
-  ///     z = q, q', impulses of the rows, 1, cos(w t), sin(w t).
+  ///     z = q, q', impulses of the rows, p(t), p'(t), 1, cos(w t), sin(w t).
   ///
   /// DoFs without mass are in equilibrium and follow from it.
   class Phase

@@ -123,7 +123,7 @@ namespace hunt
     const std::size_t m = view.constraints.size();
     if (!model)
     {
-      model = std::make_unique<LinearModel>(view, frequency);
+      model = std::make_unique<LinearModel>(view, frequency, pulse);
       impulse.assign(m, 0.);
       multiplier = view.state.multiplier;
     }

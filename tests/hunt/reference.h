@@ -38,7 +38,10 @@ namespace hunt
   class Recorder
   {
   public:
-    explicit Recorder(double frequency) : frequency(frequency) {}
+    explicit Recorder(double frequency, const Pulse &pulse = {})
+        : frequency(frequency), pulse(pulse)
+    {
+    }
     void operator()(const taut::StepView &view);
 
     History history;
@@ -46,6 +49,7 @@ namespace hunt
 
   private:
     double frequency;
+    Pulse pulse;
     std::vector<double> impulse, multiplier;
   };
 } // namespace hunt

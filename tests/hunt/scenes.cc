@@ -238,11 +238,30 @@ namespace hunt
       return draft.finish(step_decades, 1.5, 4.);
     }
 
+    /// A pulse of any width from a ten thousandth of the longest motion on: narrower ones may be
+    /// missed.
+    HuntScene narrow_pulse(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
+      if (draft.random.chance(.5))
+        add_stop(draft, "floor", "m0", draft.random.chance(.3) ? "" : elastic(draft));
+      Pulse &pulse = draft.scene.pulse;
+      pulse.begin = short_number(s.t * draft.random.uniform(.1, 1.2));
+      pulse.width = short_number(s.t * draft.random.decades(-3.4, 0));
+      draft.line() << "Load pulse: On = m0; Direction = 0, 1; Magnitude = "
+                   << short_number(s.m * s.v() / pulse.width * draft.random.uniform(-3., 3.))
+                   << "*max(0, 1-abs(t-" << number(pulse.begin + .5 * pulse.width) << ")*"
+                   << number(pulse.rise()) << ")";
+      return draft.finish(step_decades, 1.5, 4.);
+    }
+
     using Family = std::pair<const char *, HuntScene (*)(Draft)>;
 
     const std::vector<Family> of_given = {{"torsional stop", torsional_stop},
                                           {"moving base", moving_base},
-                                          {"moving support", moving_support}};
+                                          {"moving support", moving_support},
+                                          {"narrow pulse", narrow_pulse}};
 
     const std::vector<Family> of_compound = {{"law with damper", law_with_damper},
                                              {"moving strip", moving_strip}};

@@ -13,6 +13,18 @@ namespace hunt
     std::array<double, 4> start = {};                            ///< x, y and their rates [m, m/s]
   };
 
+  /// A load that rises from nothing to its size and falls again, straight.
+  struct Pulse
+  {
+    double begin = 0., width = 0.; ///< [s]; width 0: none
+
+    double rise() const { return 2. / width; } ///< [1/s]
+    double at(const double t) const
+    {
+      return width > 0. ? std::max(0., 1. - rise() * std::fabs(t - begin - .5 * width)) : 0.;
+    }
+  };
+
   /// What integrates the reference.
   enum class ReferenceKind
   {
@@ -26,8 +38,9 @@ namespace hunt
   {
     std::string family, text;
     ReferenceKind kind = ReferenceKind::event_driven;
-    double frequency = 0.;   ///< of the loads; 0: constant [rad/s]
-    bool is_driven = false;  ///< by a prescribed place: the energy of the rest is none of its own
+    double frequency = 0.;  ///< of the loads; 0: constant [rad/s]
+    bool is_driven = false; ///< by a prescribed place: the energy of the rest is none of its own
+    Pulse pulse = {};
     double restitution = 0.; ///< of rigid stops
     double reach = 0.;       ///< springs of links stay far below this compression [m]
     double step = 0.;        ///< [s]

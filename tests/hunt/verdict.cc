@@ -25,7 +25,7 @@ namespace hunt
 
     struct Run
     {
-      explicit Run(const HuntScene &scene) : recorder(scene.frequency)
+      explicit Run(const HuntScene &scene) : recorder(scene.frequency, scene.pulse)
       {
         try
         {

@@ -5,9 +5,7 @@
 #include <taut/base/communicator.h>
 
 #include <Epetra_Comm.h>
-#include <Epetra_Import.h>
 #include <Epetra_Map.h>
-#include <Epetra_Vector.h>
 
 #include <cstddef>
 #include <memory>
@@ -18,9 +16,10 @@ namespace taut
   /**
    * Which rows of the constraints this rank holds, and which of them it owns. A rank holds the rows
    * with a term on one of its bodies. Each row has one owner, the first rank that holds it, or
-   * rank 0 if none does. Vectors over owned rows are those of an Epetra_Map; ranks that hold a
-   * common row send each other their shares, and no others; Epetra has all ranks wait for each
-   * other before.
+   * rank 0 if none does. Vectors over owned rows are those of an Epetra_Map. The owner of a row and
+   * the ranks that hold it send each other values and shares, and no others do; nobody waits for
+   * other ranks. The plan is that of an Epetra_Import. The import and export of Epetra itself have
+   * all ranks meet at a barrier before each message.
    *
    * On one rank all rows are held and owned. All functions but the sizes are called by all ranks
    * together.
@@ -56,8 +55,21 @@ namespace taut
     const Communicator &communicator() const { return processes; }
 
   private:
+    /// What a rank and another one have in common.
+    struct Neighbour
+    {
+      int rank;
+      std::vector<int> lent;     ///< positions among the owned rows, which the other one holds
+      std::vector<int> borrowed; ///< positions among the held rows, which the other one owns
+      mutable std::vector<double> sent, received;
+    };
+
     void set_held_map();
     void plan();
+    using Rows = std::vector<int> Neighbour::*;
+    void receive(Rows rows_of) const;
+    void send(const double *values, Rows rows_of) const;
+    void wait() const;
 
     const Communicator processes;
     std::size_t n;
@@ -65,8 +77,9 @@ namespace taut
     std::shared_ptr<const Epetra_Comm> epetra;
     std::shared_ptr<const Epetra_Map> owned_map;
     std::unique_ptr<const Epetra_Map> held_map;
-    std::unique_ptr<const Epetra_Import> importer;
-    mutable std::unique_ptr<Epetra_Vector> held_work, owned_work;
+    std::vector<int> own_held; ///< positions of the owned rows among the held ones
+    std::vector<Neighbour> neighbours;
+    mutable std::vector<MPI_Request> messages; ///< that are under way
   };
 } // namespace taut
 
