@@ -46,6 +46,9 @@ namespace taut
     /// All A_k are new.
     void reset() { T.reset(); }
 
+    /// See InterfaceStiffness.
+    void follow_sets(const bool follow) { T.follow_sets(follow); }
+
     /// Sets up for the active constraints. Bodies in @p is_changed have another A_k or other
     /// constraints than in the last call. @p diagonal is that of F.
     void setup(const RowMap &rows, const std::vector<char> &active,

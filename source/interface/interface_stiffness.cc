@@ -127,7 +127,8 @@ namespace taut
     Block block;
     if (solvers.structure()[k].stiffness().block_size() == 0)
     {
-      block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
+      block.dofs =
+          constrained_together(k, follows_sets ? active : std::vector<char>(active.size(), 1));
       if (block.dofs.size() > most_formed)
       {
         if (blocks[k].interior && blocks[k].dofs == block.dofs)

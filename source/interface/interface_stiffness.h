@@ -18,7 +18,8 @@ namespace taut
    *
    * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
    * the rest of the body. It takes the DoFs of all constraints, active or not, so that the factor
-   * stays as long as A_k does. Where entries are needed, A_k on b stands for it.
+   * stays as long as A_k does, unless it follows the sets: T is then exact, and new with each set.
+   * Where entries are needed, A_k on b stands for it.
    */
   class InterfaceStiffness
   {
@@ -28,6 +29,9 @@ namespace taut
 
     /// All A_k are new.
     void reset() { blocks = std::vector<Block>(blocks.size()); }
+
+    /// From the next setup() on.
+    void follow_sets(const bool follow) { follows_sets = follow; }
 
     /// See InterfacePreconditioner::setup(). Called by all ranks together.
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed);
@@ -78,6 +82,7 @@ namespace taut
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;
+    bool follows_sets = false;
     std::size_t n_constrained = 0, first_own = 0, n_own = 0;
     SymmetricEntries own_T;      ///< formed blocks of this rank, by positions in its own lists
     SymmetricEntries T;          ///< formed blocks and springs

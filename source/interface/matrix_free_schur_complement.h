@@ -68,6 +68,7 @@ namespace taut
     void prepare(const std::vector<std::size_t> &set, double shift);
     void divide_by_scale(std::vector<double> &x) const;
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
+    void follow_sets_if_worth(int n_iterations);
     bool refine(const NaturalCoarseProblem *null_space, const std::vector<double> &b,
                 std::vector<double> &x);
 
@@ -82,6 +83,8 @@ namespace taut
     std::vector<double> compliance;
     std::vector<char> active;     ///< constraints that everything is prepared for
     std::vector<char> is_changed; ///< bodies that it is not prepared for
+    bool follows_sets = false;    ///< the preconditioner is made for each set, in statics
+    bool follows_in_vain = false; ///< it was, and systems took as many iterations
     bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
     double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;

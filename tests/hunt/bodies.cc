@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: cables, masses on ropes, rigid bodies on stops, strings on bumps and solids that overlap
-// flat and wavy floors come to rest with the forces of their own equations to 1 %, and one or two
-// bodies on hinges swing as their equations do to 2 %, or a warning says why not, or the scene is
-// refused. Source: equations of the elastic catenary (H. M. Irvine, Cable Structures, 1981); the
-// least of the convex energy of springs that only pull or push; the complementarity problem of the
-// exact flexibilities of a string; uniaxial strain, and that a wave has no mean; the physical
-// pendulum and Lagrange's equations of two of them.
+// Claim: cables, masses on ropes, rigid bodies on stops, strings on bumps, and solids that overlap
+// flat and wavy floors, bores and pins come to rest with the forces of their own equations to 1 %,
+// and one or two bodies on hinges swing as their equations do to 2 %, or a warning says why not, or
+// the scene is refused. Source: equations of the elastic catenary (H. M. Irvine, Cable Structures,
+// 1981); the least of the convex energy of springs that only pull or push; the complementarity
+// problem of the exact flexibilities of a string; uniaxial strain, and that a wave has no mean; a
+// half-plane on a sine (H. M. Westergaard, J. Appl. Mech. 6, 1939), with its mean gap from the
+// compliance of periodic punches; Lame's ring; the physical pendulum and Lagrange's equations of
+// two.
 #include "common.h"
 #include "scene_text.h"
 
