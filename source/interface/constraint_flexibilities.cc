@@ -86,6 +86,15 @@ namespace taut
     for (const BodyConstraints::Entry *entry : samples)
       if (const double local = local_flexibility(entry->form, diagonal); local > 0.)
         ratio = std::max(ratio, solvers[k].flexibility(entry->form) / local);
+    std::vector<LinearForm> forms; // of the parts that are not estimated
+    std::vector<std::size_t> of_part;
+    const auto add_form =
+        [&](const std::size_t constraint, const unsigned int group, const LinearForm &form)
+    {
+      of_part.push_back(parts[k].size());
+      parts[k].push_back({constraint, group, 0.});
+      forms.push_back(form);
+    };
     for (const BodyConstraints::Entry &entry : constraints[k])
     {
       if (has_estimates && is_cut[entry.constraint])
@@ -95,16 +104,23 @@ namespace taut
       }
       if (n_groups[k] <= 1)
       {
-        parts[k].push_back({entry.constraint, 0, solvers[k].flexibility(entry.form)});
+        add_form(entry.constraint, 0, entry.form);
         continue;
       }
-      std::vector<LinearForm> forms(n_groups[k]);
+      std::vector<LinearForm> by_group(n_groups[k]);
       for (std::size_t e = 0; e < entry.form.index.size(); ++e)
-        forms[group_of[k][entry.form.index[e]]].add(entry.form.index[e], entry.form.value[e]);
-      for (unsigned int g = 0; g < forms.size(); ++g)
-        if (!forms[g].index.empty())
-          parts[k].push_back({entry.constraint, g, solvers[k].flexibility(forms[g])});
+        by_group[group_of[k][entry.form.index[e]]].add(entry.form.index[e], entry.form.value[e]);
+      for (unsigned int g = 0; g < by_group.size(); ++g)
+        if (!by_group[g].index.empty())
+          add_form(entry.constraint, g, by_group[g]);
     }
+    std::vector<const LinearForm *> rows;
+    for (const LinearForm &form : forms)
+      rows.push_back(&form);
+    std::vector<double> F;
+    solvers[k].own_flexibilities(rows, F);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      parts[k][of_part[r]].flexibility = F[r];
   }
 
   void RowFlexibilities::setup(const std::vector<double> &S)

@@ -4,6 +4,14 @@
 
 namespace taut
 {
+  void LocalSolver::own_flexibilities(const std::vector<const LinearForm *> &rows,
+                                      std::vector<double> &F) const
+  {
+    F.clear();
+    for (const LinearForm *row : rows)
+      F.push_back(flexibility(*row));
+  }
+
   void LocalSolver::flexibilities(const std::vector<const LinearForm *> &rows,
                                   std::vector<double> &F) const
   {

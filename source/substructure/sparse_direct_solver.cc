@@ -40,10 +40,15 @@ namespace taut
       void solve(std::vector<double> &x) const override;
       void column(const LinearForm &rhs, WindowedVector &x) const override;
       double flexibility(const LinearForm &rhs) const override;
+      void own_flexibilities(const std::vector<const LinearForm *> &rows,
+                             std::vector<double> &F) const override;
       void flexibilities(const std::vector<const LinearForm *> &rows,
                          std::vector<double> &F) const override;
 
     private:
+      void halves_of(const std::vector<const LinearForm *> &rows, std::size_t first,
+                     SparseHalves &y) const;
+
       std::size_t n = 0;
       std::vector<unsigned int> constrained;
       std::vector<char> is_constrained;
@@ -95,8 +100,41 @@ namespace taut
     double SparseDirectSolver::flexibility(const LinearForm &rhs) const
     {
       std::vector<double> result;
-      flexibilities({&rhs}, result);
+      own_flexibilities({&rhs}, result);
       return result.front();
+    }
+
+    /// Half solutions for the rows from @p first on, as many as there are lanes.
+    void SparseDirectSolver::halves_of(const std::vector<const LinearForm *> &rows,
+                                       const std::size_t first, SparseHalves &y) const
+    {
+      std::vector<LinearForm> free(std::min(lanes, rows.size() - first));
+      std::vector<const LinearForm *> b;
+      for (std::size_t l = 0; l < free.size(); ++l)
+      {
+        const LinearForm &row = *rows[first + l];
+        for (std::size_t e = 0; e < row.index.size(); ++e)
+          if (!is_constrained[row.index[e]])
+            free[l].add(row.index[e], row.value[e]);
+        b.push_back(&free[l]);
+      }
+      factors.half_solutions(b, y);
+    }
+
+    void SparseDirectSolver::own_flexibilities(const std::vector<const LinearForm *> &rows,
+                                               std::vector<double> &F) const
+    {
+      F.resize(rows.size());
+      SparseHalves y;
+      for (std::size_t first = 0; first < rows.size(); first += lanes)
+      {
+        halves_of(rows, first, y);
+        double sums[lanes] = {};
+        for (std::size_t e = 0; e < y.value.size(); e += lanes)
+          for (std::size_t l = 0; l < lanes; ++l)
+            sums[l] += y.value[e + l] * y.value[e + l];
+        std::copy_n(sums, std::min(lanes, rows.size() - first), F.begin() + first);
+      }
     }
 
     void SparseDirectSolver::flexibilities(const std::vector<const LinearForm *> &rows,
@@ -104,20 +142,7 @@ namespace taut
     {
       std::vector<SparseHalves> halves;
       for (std::size_t first = 0; first < rows.size(); first += lanes)
-      {
-        std::vector<LinearForm> free(std::min(lanes, rows.size() - first));
-        std::vector<const LinearForm *> b;
-        for (std::size_t l = 0; l < free.size(); ++l)
-        {
-          const LinearForm &row = *rows[first + l];
-          for (std::size_t e = 0; e < row.index.size(); ++e)
-            if (!is_constrained[row.index[e]])
-              free[l].add(row.index[e], row.value[e]);
-          b.push_back(&free[l]);
-        }
-        halves.emplace_back();
-        factors.half_solutions(b, halves.back());
-      }
+        halves_of(rows, first, halves.emplace_back());
       F.resize(rows.size() * (rows.size() + 1) / 2);
       full.resize(n * lanes, 0.);
       for (std::size_t I = 0; I < halves.size(); ++I)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <regex>
 #include <set>
 
@@ -75,13 +76,22 @@ namespace taut
 
   double speed_of_shape(const std::string &formula)
   {
-    static const std::regex moving("\\( *s *- *([0-9.]+) *\\* *t *(?=[-+)])"), word("\\b[st]\\b");
-    std::set<std::string> speeds;
+    static const std::regex moving("\\( *(?:([0-9.]+) *\\* *)?s *(?:/ *([0-9.]+) *)?- *"
+                                   "(?:([0-9.]+) *\\* *)?t *(?:/ *([0-9.]+) *)?(?=[-+)])"),
+        word("\\b[st]\\b");
+    const auto number = [](const std::string &text) { return text.empty() ? 1. : std::stod(text); };
+    std::set<double> speeds;
     for (std::sregex_iterator at(formula.begin(), formula.end(), moving), end; at != end; ++at)
-      speeds.insert(at->str(1));
-    if (speeds.size() != 1 || std::regex_search(std::regex_replace(formula, moving, "( "), word))
+      speeds.insert(number(at->str(3)) / number(at->str(4)) / number(at->str(1)) *
+                    number(at->str(2)));
+    const double least = speeds.empty() ? 0. : *speeds.begin(),
+                 largest = speeds.empty() ? 0. : *speeds.rbegin();
+    // The same speed may be written in several ways.
+    if (!(largest > 0.) || !std::isfinite(largest) ||
+        largest - least > 4. * std::numeric_limits<double>::epsilon() * largest ||
+        std::regex_search(std::regex_replace(formula, moving, "( "), word))
       return 0.;
-    return std::stod(*speeds.begin());
+    return largest;
   }
 
   TravellingShape::TravellingShape(const Expression &formula, const double speed,

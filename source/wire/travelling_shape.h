@@ -13,7 +13,8 @@
 
 namespace taut
 {
-  /// The speed v of a formula of (s - v t) alone, written so [m/s]; 0: it is another one.
+  /// The speed b / a of a formula of (a*s - b*t) alone, written so, with or without the factors and
+  /// as quotients, too [m/s]; 0: it is another one.
   double speed_of_shape(const std::string &formula);
 
   /**

@@ -46,6 +46,10 @@ namespace taut
     /// rhs^T A^-1 rhs, the flexibility of the body under one row [m/N, rad/(N m)].
     virtual double flexibility(const LinearForm &rhs) const = 0;
 
+    /// The flexibility of each of @p rows alone; rows near each other may cost less together.
+    virtual void own_flexibilities(const std::vector<const LinearForm *> &rows,
+                                   std::vector<double> &F) const;
+
     /// F_ij = b_i^T A^-1 b_j of all pairs of @p rows, the lower triangle row after row: i + 1
     /// numbers of row i.
     virtual void flexibilities(const std::vector<const LinearForm *> &rows,
