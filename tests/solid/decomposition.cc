@@ -127,33 +127,6 @@ TEST(Feti, ContactsOfTwoBlocks)
   }
 }
 
-// Claim: of a body that is not cut, systems take an iteration each once the preconditioner follows
-// the sets, and with one factor for all sets hundreds. Expected: the active set of an assembled F,
-// and the length that a clamped beam of weight q leaves open above a floor at the depth h, the
-// fourth root of 72 EI h / q.
-TEST(Feti, ASlenderBodyThatLiesDown)
-{
-  const verification::Session session(R"(
-Generator = network; Gravity = 0, -10
-Body plate: Type = solid; Young's modulus = 7e9; Poisson's ratio = 0; Density = 2500
-Body plate: Fixed boundaries = 0; Degree = 2
-Body plate/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 600, 1 : 0, 0 : 4, 0.02
-Contact floor: Slave = plate: 2; Obstacle = plane; Point = 0, -0.01; Direction = 0, 1
-)");
-  const taut::Scene scene = session.parameters().scene();
-  const verification::InterfaceProblem problem(scene, whole(scene));
-  const auto contact = problem.find_contacts({"matrix-free", "Dirichlet", "none"}, 1e-12),
-             assembled = problem.find_contacts({"assembled dense"}, 1e-12);
-  verification::figure("slender body that lies down, active sets", contact.n_sets);
-  verification::figure("slender body that lies down, iterations", contact.statistics.n_iterations);
-  EXPECT_EQ(contact.n_closed, assembled.n_closed);
-  const double EI = 7e9 * std::pow(.02, 3) / 12., q = 2500. * 10. * .02,
-               open = std::pow(72. * EI * .01 / q, .25);
-  EXPECT_NEAR(contact.n_open, 1200. * open / 4., 12.);
-  EXPECT_GT(contact.n_sets, 5u);
-  EXPECT_LE(contact.statistics.n_iterations, 60 + 7 * contact.n_sets);
-}
-
 // Claim: the diagonal of F at cuts, estimated from sixteen of a part, is that of F but for a factor
 // of a few: it bounds what gaps round with, and weighs them against contacts. Expected: products
 // with F. The diagonal of A alone is off by 3000.
