@@ -48,6 +48,10 @@ namespace taut
 
     /// See InterfaceStiffness.
     void follow_sets(const bool follow) { T.follow_sets(follow); }
+    std::vector<std::size_t> applied_bodies(const std::vector<char> &active, bool coarse) const
+    {
+      return T.applied_bodies(active, coarse);
+    }
 
     /// Sets up for the active constraints. Bodies in @p is_changed have another A_k or other
     /// constraints than in the last call. @p diagonal is that of F.

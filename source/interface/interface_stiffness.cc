@@ -122,15 +122,27 @@ namespace taut
                   });
   }
 
+  std::vector<std::size_t> InterfaceStiffness::applied_bodies(const std::vector<char> &active,
+                                                              const bool coarse) const
+  {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      if (blocks[k].interior &&
+          (!coarse || blocks[k].dofs.size() > constrained_together(k, active).size()))
+        result.push_back(k);
+    return result;
+  }
+
   void InterfaceStiffness::compute_block(const std::size_t k, const std::vector<char> &active)
   {
     Block block;
     if (solvers.structure()[k].stiffness().block_size() == 0)
     {
-      block.dofs =
-          constrained_together(k, follows_sets ? active : std::vector<char>(active.size(), 1));
+      block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
       if (block.dofs.size() > most_formed)
       {
+        if (follows_sets)
+          block.dofs = constrained_together(k, active);
         if (blocks[k].interior && blocks[k].dofs == block.dofs)
           return;
         block.interior = solvers.solver_with_held(k, block.dofs);

@@ -18,8 +18,8 @@ namespace taut
    *
    * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
    * the rest of the body. It takes the DoFs of all constraints, active or not, so that the factor
-   * stays as long as A_k does, unless it follows the sets: T is then exact, and new with each set.
-   * Where entries are needed, A_k on b stands for it.
+   * stays as long as A_k does, unless it follows the sets: T is then exact on the DoFs of active
+   * constraints, and new with each set. Where entries are needed, A_k on b stands for it.
    */
   class InterfaceStiffness
   {
@@ -30,8 +30,12 @@ namespace taut
     /// All A_k are new.
     void reset() { blocks = std::vector<Block>(blocks.size()); }
 
-    /// From the next setup() on.
+    /// From the next setup() on, for bodies that have changed.
     void follow_sets(const bool follow) { follows_sets = follow; }
+
+    /// Bodies of this rank whose Schur complement is applied; with @p coarse only those for which
+    /// it takes more DoFs than the active constraints have.
+    std::vector<std::size_t> applied_bodies(const std::vector<char> &active, bool coarse) const;
 
     /// See InterfacePreconditioner::setup(). Called by all ranks together.
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed);

@@ -359,12 +359,17 @@ namespace taut
   /// In statics, where sets change much, few are solved with, and no checkpoint lies between them.
   void MatrixFreeSchurComplement::follow_sets_if_worth(const int n_iterations)
   {
-    if (!solvers.is_generalised_inverse() || follows_in_vain || n_iterations <= worth_a_factor)
+    if (is_stale || !solvers.is_generalised_inverse() || follows_in_vain ||
+        n_iterations <= worth_a_factor)
+      return;
+    const std::vector<std::size_t> bodies = preconditioner.applied_bodies(active, !follows_sets);
+    if (!rows().communicator().any(!bodies.empty()))
       return;
     follows_in_vain = follows_sets;
     follows_sets = !follows_sets;
     preconditioner.follow_sets(follows_sets);
-    std::fill(is_changed.begin(), is_changed.end(), 1);
+    for (const std::size_t k : bodies)
+      is_changed[k] = 1;
     is_stale = true;
   }
 

@@ -84,7 +84,7 @@ namespace taut
     std::vector<char> active;     ///< constraints that everything is prepared for
     std::vector<char> is_changed; ///< bodies that it is not prepared for
     bool follows_sets = false;    ///< the preconditioner is made for each set, in statics
-    bool follows_in_vain = false; ///< it was, and systems took as many iterations
+    bool follows_in_vain = false; ///< it was, and a system took as many iterations
     bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
     double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace taut
@@ -45,40 +46,39 @@ namespace taut
           rows.push_back(i);
       std::sort(rows.begin(), rows.end());
     }
-    set_held_map();
+    const auto of_held = held_map();
     if (processes.size() == 1)
-      owned_map = std::make_shared<const Epetra_Map>(*held_map);
+      owned_map = std::make_shared<const Epetra_Map>(*of_held);
     else
-      owned_map = std::make_shared<const Epetra_Map>(Epetra_Util::Create_OneToOne_Map(*held_map));
+      owned_map = std::make_shared<const Epetra_Map>(Epetra_Util::Create_OneToOne_Map(*of_held));
     for (int i = 0; i < owned_map->NumMyElements(); ++i)
       own.push_back(owned_map->GID(i));
-    plan();
+    plan(*of_held);
   }
 
   RowMap::RowMap(const RowMap &owners, std::vector<std::size_t> held)
       : processes(owners.processes), n(owners.n), rows(std::move(held)), own(owners.own),
         epetra(owners.epetra), owned_map(owners.owned_map)
   {
-    set_held_map();
-    plan();
+    if (!std::includes(rows.begin(), rows.end(), own.begin(), own.end()))
+      throw std::invalid_argument("a rank does not hold all rows that it owns");
+    plan(*held_map());
   }
 
-  void RowMap::set_held_map()
+  std::unique_ptr<const Epetra_Map> RowMap::held_map() const
   {
     const std::vector<int> numbers(rows.begin(), rows.end());
-    held_map = std::make_unique<const Epetra_Map>(-1, static_cast<int>(numbers.size()),
-                                                  numbers.data(), 0, *epetra);
+    return std::make_unique<const Epetra_Map>(-1, static_cast<int>(numbers.size()), numbers.data(),
+                                              0, *epetra);
   }
 
-  void RowMap::plan()
+  void RowMap::plan(const Epetra_Map &of_held)
   {
-    own_held.clear();
     for (const std::size_t i : own)
-      own_held.push_back(held_map->LID(static_cast<int>(i)));
-    neighbours.clear();
+      own_held.push_back(of_held.LID(static_cast<int>(i)));
     if (processes.size() == 1)
       return;
-    const Epetra_Import importer(*held_map, *owned_map);
+    const Epetra_Import importer(of_held, *owned_map);
     std::map<int, Neighbour> by_rank;
     for (int e = 0; e < importer.NumExportIDs(); ++e)
       by_rank[importer.ExportPIDs()[e]].lent.push_back(importer.ExportLIDs()[e]);

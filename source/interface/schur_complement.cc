@@ -15,7 +15,7 @@ namespace taut
 
     /// Numbers beside F, in all, up to which F is assembled for an equilibrium whatever they are
     /// for each DoF, where columns are short: 32 MB. Conjugate gradients take three to five times
-    /// longer on a cable of 200 and 400 bars that lies on a floor.
+    /// longer on the cable of prm/cable_on_floor with 200 and 400 bars.
     constexpr double few_numbers = 4e6;
 
     /// Number of columns that estimate the length of all. A choice: each costs a solution of its

@@ -25,8 +25,13 @@ namespace taut
       return body < partition.bodies.size() && partition.bodies[body].body;
     }
 
-    /// The rank of each part, each mechanism and each custom body: the largest first, each to the
-    /// rank with the fewest DoFs so far.
+    /// What the fullest rank may have above the mean for parts to be dealt in their order. A
+    /// choice: a tenth of the time for fewer neighbours.
+    constexpr double most_excess = .1;
+
+    /// The rank of each part, each mechanism and each custom body: stretches of their order, as
+    /// parts of near numbers are near each other, along wires and by METIS's bisections. Where this
+    /// is too uneven, the largest first, each to the rank with the fewest DoFs so far.
     std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
                                         const std::vector<std::vector<std::size_t>> &mechanisms,
                                         const unsigned int n_ranks)
@@ -54,12 +59,24 @@ namespace taut
             n_dofs[partition.bodies[i].part[c]] += cells.n_dofs() / cells.size() + 1;
         }
 
+      std::vector<unsigned int> rank(n_dofs.size(), 0);
+      const double mean = std::accumulate(n_dofs.begin(), n_dofs.end(), 0.) / n_ranks;
+      double before = 0.;
+      for (std::size_t part = 0; mean > 0. && part < rank.size(); before += n_dofs[part++])
+      {
+        rank[part] =
+            std::min(n_ranks - 1, static_cast<unsigned int>((before + .5 * n_dofs[part]) / mean));
+        load[rank[part]] += n_dofs[part];
+      }
+      if (*std::max_element(load.begin(), load.end()) <= (1. + most_excess) * mean)
+        return rank;
+
+      std::fill(load.begin(), load.end(), 0);
       std::vector<std::size_t> order(n_dofs.size());
       std::iota(order.begin(), order.end(), 0);
       std::stable_sort(order.begin(), order.end(),
                        [&](const std::size_t a, const std::size_t b)
                        { return n_dofs[a] > n_dofs[b]; });
-      std::vector<unsigned int> rank(n_dofs.size());
       for (const std::size_t part : order)
       {
         rank[part] = std::min_element(load.begin(), load.end()) - load.begin();

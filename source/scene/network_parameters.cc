@@ -299,7 +299,7 @@ namespace taut
     prm.add_parameter("Type", type,
                       "'point': at a mass or a point of a wire. 'distributed': along a wire, at "
                       "least a sixty-fourth of an element wide; a hundredth if its formula has s "
-                      "and t as (s - v*t) alone, and a fifth if it moves otherwise. 'moving': "
+                      "and t as (a*s - b*t) alone, and a fifth if it moves otherwise. 'moving': "
                       "travels on a wire from its position with Speed",
                       Selection("point|distributed|moving"));
     prm.add_parameter("On", on,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A body with thousands of candidates for contact, at rest: Taut beside a primal active-set method
-// that factors the matrix without the closed DoFs by UMFPACK for each set.
+// A body with thousands of candidates for contact, at rest: Taut beside a primal-dual active-set
+// method that factors the matrix without the closed DoFs by UMFPACK for each set.
 #include "solid/obstacle_problem.h"
 
 #include <deal.II/base/multithread_info.h>

@@ -100,22 +100,34 @@ namespace hunt
 
   void LinearModel::find_loads(const taut::StepView &view)
   {
+    if (frequency > 0. && pulse.width > 0.)
+      throw std::runtime_error("a load has a frequency and a pulse");
     const double period = frequency > 0. ? 2. * std::acos(-1.) / frequency : 0.,
-                 peak = pulse.begin + .5 * pulse.width, t = frequency > 0. ? .37 * period : 1.;
+                 peak = pulse.begin + .5 * pulse.width;
     const Vector at_start = load(view, 0.), quarter = load(view, .25 * period),
-                 half = load(view, .5 * period), highest = load(view, peak), other = load(view, t);
-    const double c = std::cos(t * frequency), s = std::sin(t * frequency);
+                 half = load(view, .5 * period), highest = load(view, peak);
     for (std::size_t i = 0; i < size(); ++i)
     {
       constant_load.push_back(.5 * (at_start[i] + half[i]));
       cosine_load.push_back(frequency > 0. ? at_start[i] - constant_load[i] : 0.);
       sine_load.push_back(frequency > 0. ? quarter[i] - constant_load[i] : 0.);
       pulse_load.push_back(pulse.width > 0. ? highest[i] - at_start[i] : 0.);
-      const double expected =
-          constant_load[i] + c * cosine_load[i] + s * sine_load[i] + pulse.at(t) * pulse_load[i];
-      if (std::fabs(other[i] - expected) >
-          1e-9 * (std::fabs(at_start[i]) + std::fabs(quarter[i]) + std::fabs(highest[i])))
-        throw std::runtime_error("a load is no constant, one frequency or the pulse");
+    }
+    const double of_period = .37 * (frequency > 0. ? period : 1.);
+    for (const double t : {of_period, 1., pulse.begin + .25 * pulse.width,
+                           pulse.begin + .8 * pulse.width, pulse.begin + 1.5 * pulse.width})
+    {
+      const Vector found = load(view, t);
+      for (std::size_t i = 0; i < size(); ++i)
+      {
+        const double expected = constant_load[i] + std::cos(t * frequency) * cosine_load[i] +
+                                std::sin(t * frequency) * sine_load[i] +
+                                pulse.at(t) * pulse_load[i];
+        if (std::fabs(found[i] - expected) >
+            1e-9 * (std::fabs(at_start[i]) + std::fabs(quarter[i])) +
+                1e-6 * std::fabs(pulse_load[i]))
+          throw std::runtime_error("a load is no constant, one frequency or the pulse");
+      }
     }
   }
 

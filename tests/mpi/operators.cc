@@ -18,8 +18,8 @@
 
 namespace
 {
-  /// Sums over ranks, their numbers, and bytes in messages to one rank.
-  long n_exchanges = 0, n_summed = 0, n_sent = 0;
+  /// Sums over ranks, their numbers, bytes in messages between two ranks, and barriers.
+  long n_exchanges = 0, n_summed = 0, n_sent = 0, n_barriers = 0;
 
   constexpr double mass_factor = 1e4; ///< [1/s^2]
 
@@ -116,14 +116,21 @@ extern "C" int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type
   return PMPI_Allreduce(in, out, n, type, how, processes);
 }
 
-/// Counts the bytes that Epetra sends.
-extern "C" int MPI_Rsend(const void *data, int n, MPI_Datatype type, int to, int tag,
-                         MPI_Comm processes)
+/// Counts the bytes between neighbours.
+extern "C" int MPI_Isend(const void *data, int n, MPI_Datatype type, int to, int tag,
+                         MPI_Comm processes, MPI_Request *request)
 {
   int size = 0;
   MPI_Type_size(type, &size);
   n_sent += static_cast<long>(size) * n;
-  return PMPI_Rsend(data, n, type, to, tag, processes);
+  return PMPI_Isend(data, n, type, to, tag, processes, request);
+}
+
+/// Counts where all ranks wait for each other.
+extern "C" int MPI_Barrier(MPI_Comm processes)
+{
+  ++n_barriers;
+  return PMPI_Barrier(processes);
 }
 
 TEST(Operators, each_row_has_one_owner_and_its_holders)
@@ -216,7 +223,8 @@ TEST(Operators, an_iteration_has_nothing_of_the_length_of_all_constraints)
       const std::vector<double> gaps = some_multipliers(n);
       std::vector<double> x, y;
       ASSERT_TRUE(F->matrix().solve(set, gaps, 0., x)); // sets up for the rows
-      const long summed = n_summed, sent = n_sent, iterations = F->statistics().n_iterations;
+      const long summed = n_summed, sent = n_sent, barriers = n_barriers,
+                 iterations = F->statistics().n_iterations;
       ASSERT_TRUE(F->matrix().solve(set, gaps, 0., x));
       const long n_iterations = F->statistics().n_iterations - iterations;
       EXPECT_GT(n_iterations, 0);
@@ -225,6 +233,7 @@ TEST(Operators, an_iteration_has_nothing_of_the_length_of_all_constraints)
         EXPECT_LE(n_summed - summed, static_cast<long>(n) + 6 * n_iterations + 60);
         EXPECT_LE(n_sent - sent, 8 * static_cast<long>(sizeof(double)) * (n_iterations + 8))
             << preconditioner << " " << n;
+        EXPECT_EQ(n_barriers, barriers);
       }
       F->matrix().apply(x, y);
       for (std::size_t i = 0; i < n; ++i)

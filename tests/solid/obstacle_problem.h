@@ -92,45 +92,53 @@ namespace obstacle
       unsigned int n_sets = 0;
     };
 
-    /// By Taut, with a constraint for each candidate.
-    Solution by_taut(const std::string &form) const
+    /// A system with a constraint for each candidate.
+    taut::System system() const
     {
-      taut::System system;
+      taut::System result;
       const dealii::SparseMatrix<double> none;
-      const auto number = system.add(
+      const auto number = result.add(
           "body",
           [&] { return std::make_unique<taut::FEBody<2>>("body", dofs, M, none, K, held, load); });
-      const auto &body = dynamic_cast<const taut::FEBody<2> &>(*system.body(number));
+      const auto &body = dynamic_cast<const taut::FEBody<2> &>(*result.body(number));
       for (const auto &[dof, height] : candidates)
-        system.add(taut::Constraint::unilateral(
+        result.add(taut::Constraint::unilateral(
                        "node " + std::to_string(dof),
-                       {{system.index_here(number), body.displacement_of_dof(dof)}})
+                       {{result.index_here(number), body.displacement_of_dof(dof)}})
                        .gap(-height));
-      const taut::Constraints rows = system.constraints();
+      return result;
+    }
+
+    /// By Taut, with a form of the interface operator.
+    Solution by_taut(const std::string &form) const
+    {
+      taut::System with_rows = system();
+      const taut::Constraints rows = with_rows.constraints();
       taut::SolverParameters solver;
       solver.interface.form = form;
       const taut::StaticState state =
-          taut::static_equilibrium(system.structure(), rows, solver, 0.);
-      const dealii::Vector<double> u = body.all_dofs(state.displacement[0]);
+          taut::static_equilibrium(with_rows.structure(), rows, solver, 0.);
+      const dealii::Vector<double> u =
+          dynamic_cast<const taut::FEBody<2> &>(*with_rows.body(0)).all_dofs(state.displacement[0]);
       Solution result{{u.begin(), u.end()}, {}, state.residuals.iterations};
       for (std::size_t k = 0; k < candidates.size(); ++k)
         result.closed.push_back(state.multiplier[rows.index_of_link(k)] > 0.);
       return result;
     }
 
-    /// By a primal active-set method: each set is eliminated from the matrix, which UMFPACK
+    /// By a primal-dual active-set method: each set is eliminated from the matrix, which UMFPACK
     /// factors anew; forces below zero open, and nodes below the obstacle close.
     Solution by_elimination() const
     {
+      constexpr unsigned int most_sets = 500;
       const unsigned int n = dofs.n_dofs();
       Solution result{std::vector<double>(n, 0.), std::vector<char>(candidates.size(), 0)};
       std::vector<double> height(n, 0.);
       std::vector<char> fixed(n, 0);
       dealii::Vector<double> u(n), force(n);
-      for (bool changes = true; changes; ++result.n_sets)
+      for (; result.n_sets < most_sets; ++result.n_sets)
       {
-        changes = result.n_sets == 0;
-        std::fill(fixed.begin(), fixed.end(), 0);
+        bool changes = result.n_sets == 0;
         for (unsigned int i = 0; i < n; ++i)
           fixed[i] = held.is_constrained(i);
         for (std::size_t k = 0; k < candidates.size(); ++k)
@@ -142,7 +150,10 @@ namespace obstacle
           height[dof] = at;
         }
         if (!changes)
-          break;
+        {
+          std::copy(u.begin(), u.end(), result.displacement.begin());
+          return result;
+        }
         dealii::SparseMatrix<double> A(pattern);
         dealii::Vector<double> rhs(load);
         for (unsigned int i = 0; i < n; ++i)
@@ -168,8 +179,7 @@ namespace obstacle
           if (!result.closed[k])
             force[candidates[k].first] = 0.;
       }
-      std::copy(u.begin(), u.end(), result.displacement.begin());
-      return result;
+      throw std::runtime_error("the active sets come to no end");
     }
 
     std::size_t n_dofs() const { return dofs.n_dofs(); }

@@ -17,9 +17,9 @@ namespace taut
    * Which rows of the constraints this rank holds, and which of them it owns. A rank holds the rows
    * with a term on one of its bodies. Each row has one owner, the first rank that holds it, or
    * rank 0 if none does. Vectors over owned rows are those of an Epetra_Map. The owner of a row and
-   * the ranks that hold it send each other values and shares, and no others do; nobody waits for
-   * other ranks. The plan is that of an Epetra_Import. The import and export of Epetra itself have
-   * all ranks meet at a barrier before each message.
+   * the ranks that hold it send each other values and shares, by the plan of an Epetra_Import; a
+   * rank waits for its neighbours alone, where Epetra's own import begins with a barrier. Messages
+   * have the tag 4800 of the communicator.
    *
    * On one rank all rows are held and owned. All functions but the sizes are called by all ranks
    * together.
@@ -30,7 +30,7 @@ namespace taut
     /// @p held: rows with a term on a body of this rank, ascending, of @p n_rows of all ranks.
     RowMap(const Communicator &processes, std::vector<std::size_t> held, std::size_t n_rows);
 
-    /// The same owners, for a rank that holds other rows.
+    /// The same owners, for a rank that holds other rows, ascending, those that it owns among them.
     RowMap(const RowMap &owners, std::vector<std::size_t> held);
 
     /// The owned rows, ascending.
@@ -64,8 +64,8 @@ namespace taut
       mutable std::vector<double> sent, received;
     };
 
-    void set_held_map();
-    void plan();
+    std::unique_ptr<const Epetra_Map> held_map() const;
+    void plan(const Epetra_Map &of_held);
     using Rows = std::vector<int> Neighbour::*;
     void receive(Rows rows_of) const;
     void send(const double *values, Rows rows_of) const;
@@ -76,7 +76,6 @@ namespace taut
     std::vector<std::size_t> rows, own;
     std::shared_ptr<const Epetra_Comm> epetra;
     std::shared_ptr<const Epetra_Map> owned_map;
-    std::unique_ptr<const Epetra_Map> held_map;
     std::vector<int> own_held; ///< positions of the owned rows among the held ones
     std::vector<Neighbour> neighbours;
     mutable std::vector<MPI_Request> messages; ///< that are under way
