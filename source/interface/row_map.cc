@@ -3,6 +3,7 @@
 
 #include <Epetra_Import.h>
 #include <Epetra_MpiComm.h>
+#include <Epetra_MpiDistributor.h>
 #include <Epetra_SerialComm.h>
 #include <Epetra_Util.h>
 
@@ -82,17 +83,17 @@ namespace taut
     std::map<int, Neighbour> by_rank;
     for (int e = 0; e < importer.NumExportIDs(); ++e)
       by_rank[importer.ExportPIDs()[e]].lent.push_back(importer.ExportLIDs()[e]);
-    const std::vector<int> numbers(rows.begin(), rows.end());
-    std::vector<int> owners(rows.size()), positions(rows.size());
-    owned_map->RemoteIDList(static_cast<int>(rows.size()), numbers.data(), owners.data(),
-                            positions.data());
-    for (std::size_t p = 0; p < rows.size(); ++p)
-      if (owners[p] != static_cast<int>(processes.rank()))
-        by_rank[owners[p]].borrowed.push_back(static_cast<int>(p));
+    // The rows of others, in the order of their owners.
+    const auto &from = dynamic_cast<const Epetra_MpiDistributor &>(importer.Distributor());
+    const int *position = importer.RemoteLIDs();
+    for (int r = 0; r < from.NumReceives(); ++r)
+      for (int e = 0; e < from.LengthsFrom()[r]; ++e)
+        by_rank[from.ProcsFrom()[r]].borrowed.push_back(*position++);
     for (auto &[rank, neighbour] : by_rank)
     {
       // Both sides then have their common rows in ascending order.
       std::sort(neighbour.lent.begin(), neighbour.lent.end());
+      std::sort(neighbour.borrowed.begin(), neighbour.borrowed.end());
       neighbour.rank = rank;
       const std::size_t most = std::max(neighbour.lent.size(), neighbour.borrowed.size());
       neighbour.sent.resize(most);

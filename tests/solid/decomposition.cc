@@ -127,6 +127,25 @@ TEST(Feti, ContactsOfTwoBlocks)
   }
 }
 
+// Claim: gradient projections come to the contacts of Newton's method, with more products with F:
+// they have no preconditioner. Expected: the same sets of the same blocks.
+TEST(Feti, ContactsOfTwoBlocksByProjections)
+{
+  for (const unsigned int refinement : {0u, 1u})
+  {
+    const auto blocks = blocks_in_parts(1u << refinement);
+    const taut::InterfaceParameters form = {"matrix-free", "Dirichlet", "rigid body modes"};
+    const auto newton = blocks->find_contacts(form, 1e-9),
+               projections = blocks->find_contacts(form, 1e-9, "MPRGP");
+    EXPECT_EQ(projections.n_closed, newton.n_closed);
+    EXPECT_GT(projections.statistics.n_applications, newton.statistics.n_applications);
+    const std::string name =
+        "two blocks in contact, " + std::to_string(blocks->structure.size()) + " parts, products ";
+    verification::figure(name + "of Newton's method", newton.statistics.n_applications);
+    verification::figure(name + "of MPRGP", projections.statistics.n_applications);
+  }
+}
+
 // Claim: the diagonal of F at cuts, estimated from sixteen of a part, is that of F but for a factor
 // of a few: it bounds what gaps round with, and weighs them against contacts. Expected: products
 // with F. The diagonal of A alone is off by 3000.

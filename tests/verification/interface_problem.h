@@ -104,7 +104,8 @@ namespace verification
 
     /// The equilibrium with its contacts, from the undeformed bodies: a search for the active set,
     /// the last system solved until its gaps are @p tolerance of their terms.
-    Contact find_contacts(const taut::InterfaceParameters &parameters, const double tolerance) const
+    Contact find_contacts(const taut::InterfaceParameters &parameters, const double tolerance,
+                          const std::string &method = "semismooth Newton") const
     {
       taut::FactoredStructure solvers(structure, "block tridiagonal");
       solvers.factor_stiffness();
@@ -132,7 +133,7 @@ namespace verification
       options.linear_tolerance = tolerance;
       options.dead_band = std::max(options.dead_band, tolerance);
       options.tolerance = std::max(options.tolerance, 10. * tolerance);
-      taut::ComplementaritySolver search("semismooth Newton", options);
+      taut::ComplementaritySolver search(method, options);
       const taut::ComplementarityResult &result = search.solve(problem, schur->matrix());
       Contact contact;
       contact.statistics = schur->statistics();
