@@ -272,14 +272,36 @@ namespace taut
   Expression::Separated Expression::separated() const
   {
     Separated result;
-    const FormulaTerms terms = terms_of(text);
+    FormulaTerms terms = terms_of(text);
     for (const FormulaTerms::Product &product : terms.products)
       result.products.push_back(
           {Expression(product.of_place, entry), Expression(product.of_time, entry)});
-    if (terms.products.empty())
-      result.rest = *this;
-    else if (!terms.rest.empty())
-      result.rest = Expression(terms.rest, entry);
+    for (const FormulaTerms::Travelling &term : terms.travelling)
+      try
+      {
+        Separated::Travelling own{
+            {}, Expression(term.of_time, entry), Expression(term.whole, entry)};
+        bool is_known = true;
+        for (const FormulaTerms::Shape &shape : term.factors)
+        {
+          own.factors.push_back({Expression(shape.formula, entry), Expression(shape.a, entry),
+                                 Expression(shape.b, entry)});
+          is_known &= std::isfinite(1. / own.factors.back().a(0., 0.)) &&
+                      std::isfinite(own.factors.back().b(0., 0.));
+        }
+        if (is_known)
+          result.travelling.push_back(std::move(own));
+        else
+          terms.rest += term.whole;
+      }
+      catch (const UserError &)
+      {
+        terms.rest += term.whole; // a sum has no value at the start
+      }
+    if (terms.rest.empty())
+      return result;
+    result.rest =
+        terms.products.empty() && terms.travelling.empty() ? *this : Expression(terms.rest, entry);
     return result;
   }
 

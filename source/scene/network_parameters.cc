@@ -298,9 +298,10 @@ namespace taut
   {
     prm.add_parameter("Type", type,
                       "'point': at a mass or a point of a wire. 'distributed': along a wire, at "
-                      "least a sixty-fourth of an element wide; a hundredth if its formula has s "
-                      "and t as (a*s - b*t) alone, and a fifth if it moves otherwise. 'moving': "
-                      "travels on a wire from its position with Speed",
+                      "least a sixty-fourth of an element wide; a hundredth if each factor of its "
+                      "formula has t alone, s alone, or both as one sum a*s + b, where a and b "
+                      "may depend on t, as in exp(-((s-20*t)/(30+t))^2)*cos(t); a fifth if it "
+                      "moves otherwise. 'moving': travels on a wire from its position with Speed",
                       Selection("point|distributed|moving"));
     prm.add_parameter("On", on,
                       "A mass, 'wire @ position' or 'body @ x, y, z'; of a distributed load the "

@@ -71,10 +71,10 @@ namespace taut
 
   Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options)
       : structure(structure), constraints(constraints), options(options),
-        initial(find_initial_state(structure, constraints, options.solver, options.start,
-                                   options.step)),
-        energy(structure, constraints, initial.reference, initial.state),
-        contact_measures(structure, constraints, energy, initial.state)
+        initial(std::make_shared<const InitialState>(find_initial_state(
+            structure, constraints, options.solver, options.start, options.step))),
+        energy(structure, constraints, initial->reference, initial->state),
+        contact_measures(structure, constraints, energy, initial->state)
   {
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
   }
@@ -99,14 +99,24 @@ namespace taut
   } // namespace
 
   Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
-                 InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
-                 const long n_steps, std::vector<LongestStep> longest_steps)
+                 std::shared_ptr<const InitialState> start,
+                 std::shared_ptr<const TimeIntegrator> scheme, const long n_steps,
+                 std::vector<LongestStep> longest_steps)
       : structure(structure), constraints(constraints), options(options), initial(std::move(start)),
-        energy(structure, constraints, initial.reference, initial.state),
-        contact_measures(structure, constraints, energy, initial.state),
+        energy(structure, constraints, initial->reference, initial->state),
+        contact_measures(structure, constraints, energy, initial->state),
         integrator(std::move(scheme)), longest_steps(std::move(longest_steps))
   {
     begin(n_steps);
+  }
+
+  Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
+                 InitialState start, std::shared_ptr<const TimeIntegrator> scheme,
+                 const long n_steps, std::vector<LongestStep> longest_steps)
+      : Motion(structure, constraints, options,
+               std::make_shared<const InitialState>(std::move(start)), std::move(scheme), n_steps,
+               std::move(longest_steps))
+  {
   }
 
   Motion::Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
@@ -143,12 +153,12 @@ namespace taut
 
   const State &Motion::state() const
   {
-    return parts ? parts->state : initial.state;
+    return parts ? parts->state : initial->state;
   }
 
   const Residuals &Motion::residuals() const
   {
-    return has_moved() ? parts->residuals : initial.residuals;
+    return has_moved() ? parts->residuals : initial->residuals;
   }
 
   const StepReport &Motion::report() const
@@ -158,7 +168,7 @@ namespace taut
 
   const BodyVectors &Motion::loads() const
   {
-    return parts ? parts->step.history().forces().P : initial.loads;
+    return parts ? parts->step.history().forces().P : initial->loads;
   }
 
   bool Motion::has_moved() const
@@ -252,9 +262,9 @@ namespace taut
     first_scheme = starts_itself || options.start == Start::equilibrium
                        ? integrator
                        : make_integrator("backward Euler");
-    constraints.update(initial.state.time);
+    constraints.update(initial->state.time);
     parts =
-        std::make_unique<Parts>(structure, constraints, options, initial, longest_steps, n_steps);
+        std::make_unique<Parts>(structure, constraints, options, *initial, longest_steps, n_steps);
     parts->nonlinear.follow(parts->state);
     prepare_method(*first_scheme, first_scheme->coefficients(options.step));
     if (!starts_itself)
@@ -303,7 +313,7 @@ namespace taut
     {
       if (!p.projection)
         p.projection = std::make_unique<VelocityProjection>(structure, constraints, options.solver,
-                                                            initial.reference);
+                                                            initial->reference);
       p.projection->prepare(c, p.length, p.step.contacts().compliance(),
                             p.step.equations().interface().matrix(), is_linear());
     }
@@ -445,7 +455,7 @@ namespace taut
     p.step.check().set_time(state.time);
     attempt(
         [&] {
-          constraints.follow(initial.reference.displacement, state.U, state.V, start, state.time);
+          constraints.follow(initial->reference.displacement, state.U, state.V, start, state.time);
         });
     constraints.update(state.time);
     costs().lap(StepPart::places);
@@ -545,7 +555,7 @@ namespace taut
     if (!unseen)
       unseen = std::make_unique<UnseenFeature>(
           parts ? find_unseen_feature(excitations(structure, constraints), structure.communicator(),
-                                      initial.state.time, options.step, parts->control.n_steps())
+                                      initial->state.time, options.step, parts->control.n_steps())
                 : UnseenFeature());
     return *unseen;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "wire/distributed_load.h"
 
+#include "base/instruction_set.h"
 #include "base/text.h"
 #include <taut/base/exceptions.h>
 
@@ -73,14 +74,17 @@ namespace taut
     bool is_at_end = false, is_fine = false, was_on = false;
   };
 
-  WireComponent::DistributedLoad::DistributedLoad(const WireComponent &wire, const double factor,
-                                                  const Load &load)
+  WireComponent::DistributedLoad::DistributedLoad(
+      const WireComponent &wire, const double factor, const Load &load,
+      const Expression::Separated::Travelling *const product)
       : magnitude(load.magnitude), integral(magnitude), name(load.name), origin(load.origin),
-        wire_length(wire.wire_length)
+        wire_length(wire.wire_length), elements(wire.nodes.size() - 1),
+        n_dofs(wire.beam ? 4 : wire.degree + 1), dofs_between(wire.beam ? 2 : wire.degree),
+        forces(elements.size() * ElementLoad::n_points * n_dofs)
   {
     const dealii::QGauss<1> rule(ElementLoad::n_points);
     const bool stands = !magnitude.depends_on_time();
-    elements.resize(wire.nodes.size() - 1);
+    LinearForm shape;
     for (std::size_t e = 0; e < elements.size(); ++e)
     {
       Element &element = elements[e];
@@ -91,21 +95,19 @@ namespace taut
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         element.places[q] = wire.nodes[e] + h * rule.point(q)[0];
-        wire.evaluate(element.places[q], load.rotational, element.shapes[q]);
-        for (double &v : element.shapes[q].value)
-          v *= factor * h * rule.weight(q);
+        wire.evaluate(element.places[q], load.rotational, shape);
+        double *const own = &forces[(e * rule.size() + q) * n_dofs];
+        for (std::size_t i = 0; i < shape.index.size(); ++i)
+          own[shape.index[i] - e * dofs_between] += shape.value[i] * (factor * h * rule.weight(q));
       }
     }
-    if (stands)
-      return;
-    if (const double speed = speed_of_shape(magnitude.formula()); speed > 0.)
+    if (product)
     {
       const double begin = elements.front().begin,
                    end = elements.back().begin + elements.back().length;
-      shape = std::make_unique<TravellingShape>(magnitude, speed, wire_length, begin, end,
-                                                (end - begin) / elements.size());
+      travelling.emplace(*product, wire_length, begin, end, (end - begin) / elements.size());
     }
-    else
+    else if (!stands)
       find_standing_details();
   }
 
@@ -152,34 +154,70 @@ namespace taut
                              " m, over and over. Give a load that is smooth between jumps"));
   }
 
+  namespace
+  {
+    /// With @p n entries for each value.
+    inline void add_products(const ElementLoad::Values &values, const double *forces,
+                             const unsigned int n, double *const sum)
+    {
+      for (const double value : values)
+        for (unsigned int i = 0; i < n; ++i)
+          sum[i] += value * *forces++;
+    }
+  } // namespace
+
+  void WireComponent::DistributedLoad::add_to(std::vector<double> &P, const std::size_t element,
+                                              const ElementLoad::Values &values) const
+  {
+    const double *const own = &forces[element * ElementLoad::n_points * n_dofs];
+    double *const sum = &P[element * dofs_between];
+    constexpr unsigned int of_beams = 4; // known to the compiler
+    if (n_dofs == of_beams)
+      add_products(values, own, of_beams, sum);
+    else
+      add_products(values, own, n_dofs, sum);
+  }
+
+  void WireComponent::DistributedLoad::add_shapes(const double t, std::vector<double> &P) const
+  {
+    TravellingLoad::Walk walk(*travelling, t);
+    TypicalLoad typical(magnitude, wire_length, t);
+    vectorised(
+        [&]
+        {
+          ElementLoad on;
+          for (std::size_t e = 0; e < elements.size(); ++e)
+          {
+            if (!walk.on(elements[e], on))
+              on = over(elements[e], t, typical);
+            if (!on.is_resolved)
+              throw EntryError(origin,
+                               to_text(std::setprecision(4), "load '", name,
+                                       "' is narrower than a hundredth of an element near s = ",
+                                       elements[e].begin, " m at t = ", t,
+                                       " s: take a smaller Element size, a wider load, or a load "
+                                       "of type 'moving', which acts at a point"));
+            if (on.size > 0.)
+              add_to(P, e, on.values);
+          }
+        });
+  }
+
   void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const
   {
+    if (travelling)
+    {
+      add_shapes(t, P);
+      return;
+    }
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
-    std::optional<TravellingShape::Walk> walk;
-    if (shape)
-      walk.emplace(*shape, t);
-    ElementLoad known;
-    for (const Element &element : elements)
+    for (std::size_t e = 0; e < elements.size(); ++e)
     {
-      if (walk && walk->on(element, known))
-      {
-        if (!known.is_resolved)
-          throw EntryError(origin,
-                           to_text(std::setprecision(4), "load '", name,
-                                   "' is narrower than a hundredth of an element near s = ",
-                                   element.begin, " m at t = ", t,
-                                   " s: take a smaller Element size, a wider load, or a load of "
-                                   "type 'moving', which acts at a point"));
-        for (unsigned int q = 0; q < ElementLoad::n_points && known.size > 0.; ++q)
-          element.shapes[q].add_to(known.values[q], P);
-        continue;
-      }
-      const ElementLoad on = over(element, t, typical);
-      for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
-        element.shapes[q].add_to(on.values[q], P);
-      if (magnitude.depends_on_time() && !shape)
-        check.add(element, on);
+      const ElementLoad on = over(elements[e], t, typical);
+      add_to(P, e, on.values);
+      if (magnitude.depends_on_time())
+        check.add(elements[e], on);
     }
     check.end();
   }

@@ -3,11 +3,12 @@
 #define taut_distributed_load_h
 
 #include "wire/element_load.h"
-#include "wire/travelling_shape.h"
+#include "wire/travelling_load.h"
 
 #include <taut/wire/wire_component.h>
 
-#include <memory>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace taut
 {
   /**
    * A force per length f(s, t), integrated at each call over each element, see LoadIntegral, or by
-   * its shape where that travels, see TravellingShape.
+   * its shapes where they travel, see TravellingLoad.
    *
    * For another load that changes with time an element is looked at in one piece, so that it has to
    * be as wide as this piece sees if it moves; a narrower moving load throws EntryError. A narrower
@@ -25,8 +26,10 @@ namespace taut
   class WireComponent::DistributedLoad : public TimeLoad
   {
   public:
-    /// With name and section of @p load for messages.
-    DistributedLoad(const WireComponent &wire, double factor, const Load &load);
+    /// With name and section of @p load for messages. @p product is the load as shapes that travel;
+    /// nullptr: it is none.
+    DistributedLoad(const WireComponent &wire, double factor, const Load &load,
+                    const Expression::Separated::Travelling *product = nullptr);
 
     void add(double t, std::vector<double> &P) const override;
     double sample(double t) const override;
@@ -37,13 +40,18 @@ namespace taut
 
     ElementLoad over(const Element &element, double t, TypicalLoad &typical) const;
     void find_standing_details();
+    void add_shapes(double t, std::vector<double> &P) const;
+    void add_to(std::vector<double> &P, std::size_t element,
+                const ElementLoad::Values &values) const;
 
     Expression magnitude;
     LoadIntegral integral;
     std::string name, origin;
     double wire_length;
     std::vector<Element> elements;
-    std::unique_ptr<const TravellingShape> shape; ///< of loads that travel; none for others
+    unsigned int n_dofs, dofs_between; ///< of an element, and from one to the next
+    std::vector<double> forces;        ///< on the DoFs by unit values at each Gauss point
+    std::optional<TravellingLoad> travelling;
   };
 } // namespace taut
 

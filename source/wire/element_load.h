@@ -2,22 +2,20 @@
 #ifndef taut_element_load_h
 #define taut_element_load_h
 
-#include <taut/base/linear_form.h>
 #include <taut/scene/expression.h>
 
 #include <array>
 
 namespace taut
 {
-  /// An element of a wire under a load: the forces of unit values at its Gauss points.
+  /// An element of a wire under a load, with its Gauss points.
   struct LoadedElement
   {
     static constexpr unsigned int n_points = 4;
 
-    std::array<LinearForm, n_points> shapes; ///< weighted
-    std::array<double, n_points> places;     ///< [m]
-    double begin, length;                    ///< [m]
-    unsigned int n_pieces;                   ///< see LoadIntegral
+    std::array<double, n_points> places; ///< [m]
+    double begin, length;                ///< [m]
+    unsigned int n_pieces;               ///< see LoadIntegral
   };
 
   /**

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "wire/travelling_shape.h"
+
+#include "wire/element_load.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/polynomial.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <regex>
-#include <set>
 
 namespace taut
 {
@@ -23,6 +21,9 @@ namespace taut
     /// compared with it. A choice: more see narrower details, and cost as much at the set-up.
     constexpr unsigned int samples_in_element = 250;
     constexpr unsigned int n_samples = elements_in_bin * samples_in_element;
+
+    /// A polynomial may be good over an element beyond its piece: such elements take it, too.
+    constexpr double most_reach = 1. / elements_in_bin;
 
     /// Length of a piece with a jump, over an element: what it lacks of a load of a hundredth of an
     /// element is 4e-7 of it.
@@ -39,6 +40,9 @@ namespace taut
     /// Error of a polynomial over the largest value in its bin, or a thousandth of the largest at
     /// the start: a tenth of what LoadIntegral promises. A piece below this error is zero.
     constexpr double tolerance = .1 * LoadIntegral::tolerance, least_part = 1e-3;
+
+    /// Farther off, the number of a bin has no digits for a place in it.
+    constexpr double most_bins = 1e9;
 
     /// Places for each element from which the size of a load is known: what is a thousandth of it.
     constexpr double samples_of_size = 4.;
@@ -74,38 +78,20 @@ namespace taut
     }
   } // namespace
 
-  double speed_of_shape(const std::string &formula)
-  {
-    static const std::regex moving("\\( *(?:([0-9.]+) *\\* *)?s *(?:/ *([0-9.]+) *)?- *"
-                                   "(?:([0-9.]+) *\\* *)?t *(?:/ *([0-9.]+) *)?(?=[-+)])"),
-        word("\\b[st]\\b");
-    const auto number = [](const std::string &text) { return text.empty() ? 1. : std::stod(text); };
-    std::set<double> speeds;
-    for (std::sregex_iterator at(formula.begin(), formula.end(), moving), end; at != end; ++at)
-      speeds.insert(number(at->str(3)) / number(at->str(4)) / number(at->str(1)) *
-                    number(at->str(2)));
-    const double least = speeds.empty() ? 0. : *speeds.begin(),
-                 largest = speeds.empty() ? 0. : *speeds.rbegin();
-    // The same speed may be written in several ways.
-    if (!(largest > 0.) || !std::isfinite(largest) ||
-        largest - least > 4. * std::numeric_limits<double>::epsilon() * largest ||
-        std::regex_search(std::regex_replace(formula, moving, "( "), word))
-      return 0.;
-    return largest;
-  }
-
-  TravellingShape::TravellingShape(const Expression &formula, const double speed,
+  TravellingShape::TravellingShape(const Expression::Separated::Shape &shape,
                                    const double wire_length, const double begin, const double end,
                                    const double element_length)
-      : formula(formula), speed(speed), width(elements_in_bin * element_length),
-        first(wire_length - width * std::floor((wire_length - end) / width)), samples(n_samples)
+      : shape(shape), a(shape.a(0., 0.)), b(shape.b(0., 0.)),
+        width(elements_in_bin * element_length),
+        first(wire_length - width * std::floor((wire_length - end) / width)),
+        samples(n_samples + 2 * samples_in_element)
   {
-    for (unsigned int k = 0; k < n_samples; ++k)
-      samples[k] = (k + .5) / n_samples;
+    for (unsigned int k = 0; k < samples.size(); ++k)
+      samples[k] = (k + .5) / n_samples - most_reach;
     const double n_bins = std::ceil((first - begin) / width);
-    points.resize(static_cast<std::size_t>(2. * n_bins * elements_in_bin * samples_of_size));
+    points.resize(static_cast<std::size_t>(3. * n_bins * elements_in_bin * samples_of_size));
     for (std::size_t k = 0; k < points.size(); ++k)
-      points[k] = 2. * n_bins * (k + .5) / points.size();
+      points[k] = 3. * n_bins * (k + .5) / points.size() - n_bins;
     try
     {
       evaluate(0., points, values);
@@ -113,7 +99,7 @@ namespace taut
     }
     catch (const UserError &)
     {
-      // Places behind the wire may never come onto it. Nothing is negligible then.
+      // Places off the wire may never come onto it. Nothing is negligible then.
     }
   }
 
@@ -131,21 +117,28 @@ namespace taut
     places.resize(u.size());
     for (std::size_t k = 0; k < u.size(); ++k)
       places[k] = first - width * (bin + u[k]);
-    formula.evaluate(places, 0., result);
+    shape.form.evaluate(places, 0., result);
   }
 
-  TravellingShape::Bin TravellingShape::look(const std::size_t bin) const
+  const TravellingShape::Bin &TravellingShape::bin(const long number) const
+  {
+    auto found = bins.find(number);
+    if (found == bins.end())
+      found = bins.emplace(number, look(number)).first;
+    return found->second;
+  }
+
+  TravellingShape::Bin TravellingShape::look(const long bin) const
   {
     Bin result;
-    result.is_looked_at = true;
     try
     {
       evaluate(bin, samples, sampled);
       const double most = std::max(largest_of(sampled), least_part * largest);
       if (most < no_load)
-        result.pieces.push_back({0., 1., true, {}});
+        result.pieces.push_back({0., 1., 0., true, {}});
       result.is_known = most < no_load || resolve(bin, 0., 1., most, result);
-      for (unsigned int k = 1; k + 1 < n_samples; ++k)
+      for (unsigned int k = samples_in_element; k < samples_in_element + n_samples; ++k)
         if (sampled[k] != 0. && sampled[k - 1] == 0. && sampled[k + 1] == 0.)
           result.narrow = samples[k];
     }
@@ -158,12 +151,12 @@ namespace taut
     return result;
   }
 
-  bool TravellingShape::resolve(const std::size_t bin, const double begin, const double end,
+  bool TravellingShape::resolve(const long bin, const double begin, const double end,
                                 const double most, Bin &result) const
   {
     if (result.pieces.size() == most_in_bin || end - begin < shortest_piece)
       return false;
-    Piece piece{begin, end, true, {}};
+    Piece piece{begin, end, 0., true, {}};
     const double length = end - begin;
     points.clear();
     for (const double x : nodes)
@@ -178,16 +171,15 @@ namespace taut
       for (unsigned int j = 0; j < n_nodes; ++j)
         piece.coefficients[j] += values[k] * basis[k][j];
     piece.is_zero = may_be_zero;
-    const auto fits = [&](const double u, const double q)
-    { return std::fabs(piece(u) - q) <= accepted; };
-    bool is_resolved = true;
+    bool is_resolved = is_good(piece, begin, end, accepted);
     for (unsigned int k = 0; k < n_checks && is_resolved; ++k)
-      is_resolved = fits(points[n_nodes + k], values[n_nodes + k]);
-    for (std::size_t k = std::ceil(begin * n_samples - .5);
-         is_resolved && k < n_samples && samples[k] < end; ++k)
-      is_resolved = fits(samples[k], sampled[k]);
+      is_resolved = std::fabs(piece(points[n_nodes + k]) - values[n_nodes + k]) <= accepted;
     if (is_resolved)
     {
+      if (!piece.is_zero && length >= most_reach &&
+          is_good(piece, begin - most_reach, begin, accepted) &&
+          is_good(piece, end, end + most_reach, accepted))
+        piece.reach = most_reach;
       result.pieces.push_back(piece);
       return true;
     }
@@ -195,98 +187,70 @@ namespace taut
     return resolve(bin, begin, middle, most, result) && resolve(bin, middle, end, most, result);
   }
 
-  TravellingShape::Walk::Walk(const TravellingShape &shape, const double t)
-      : shape(shape), start((shape.first + shape.speed * t) / shape.width),
-        per_length(1. / shape.width), is_before(t < 0.)
+  /// At the samples from one place of the bin to another one.
+  bool TravellingShape::is_good(const Piece &piece, const double begin, const double end,
+                                const double accepted) const
   {
-  }
-
-  /// False if the shape is not known there.
-  bool TravellingShape::Walk::move_to(const double u)
-  {
-    const std::size_t k = static_cast<std::size_t>(u);
-    if (shape.bins.size() <= k)
-      shape.bins.resize(k + 1);
-    if (!shape.bins[k].is_looked_at)
-      shape.bins[k] = shape.look(k);
-    if (!shape.bins[k].is_known)
-      return false;
-    const std::vector<Piece> &pieces = shape.bins[k].pieces;
-    if (bin != k)
-      piece = pieces.size() - 1;
-    bin = k;
-    while (pieces[piece].begin + k > u && piece > 0)
-      --piece;
-    while (pieces[piece].end + k <= u && piece + 1 < pieces.size())
-      ++piece;
-    from = pieces[piece].begin + k;
-    to = pieces[piece].end + k;
-    return true;
-  }
-
-  bool TravellingShape::Walk::on(const LoadedElement &element, ElementLoad &load)
-  {
-    load.size = 0.;
-    load.is_resolved = true;
-    const double u0 = place(element.begin + element.length), u1 = place(element.begin);
-    if (!(u0 >= from && u1 <= to))
-    {
-      if (is_before || !move_to(u1) || !move_to(u0))
+    for (std::size_t k = std::ceil((begin + most_reach) * n_samples - .5);
+         k < samples.size() && samples[k] < end; ++k)
+      if (!(std::fabs(piece(samples[k]) - sampled[k]) <= accepted))
         return false;
-      for (std::size_t k = bin; k < u1; ++k)
-        if (!shape.bins[k].is_known)
-          return false;
-    }
-    if (const double narrow = shape.bins[bin].narrow + bin; narrow >= u0 && narrow <= u1)
-      load.is_resolved = false;
-    if (u1 > to)
-    {
-      integrate(element, u0, u1, load);
-      return true;
-    }
-    const Piece &own = shape.bins[bin].pieces[piece];
-    if (own.is_zero)
-      return true;
-    for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
-    {
-      load.values[q] = own(place(element.places[q]) - bin);
-      load.size += std::fabs(load.values[q]) / ElementLoad::n_points;
-    }
     return true;
   }
 
-  /// Over more than one piece.
-  void TravellingShape::Walk::integrate(const LoadedElement &element, const double u0,
-                                        const double u1, ElementLoad &load)
+  TravellingShape::Walk::Walk(const TravellingShape &shape, const double t) : shape(shape)
   {
-    static const dealii::QGauss<1> rule(n_coefficients - 1); // exact for moments up to the third
-    ElementLoad::Moments moments = {};
-    for (std::size_t k = bin, p = piece; k < u1; ++k, p = 0)
-      for (; p < shape.bins[k].pieces.size() && shape.bins[k].pieces[p].begin + k < u1; ++p)
-      {
-        const Piece &part = shape.bins[k].pieces[p];
-        const double from = std::max(u0, part.begin + k), to = std::min(u1, part.end + k);
-        if (part.is_zero || to <= from)
-          continue;
-        for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const double u = from + (to - from) * rule.point(q)[0],
-                       force = (to - from) / (u1 - u0) * rule.weight(q) * part(u - k);
-          const ElementLoad::Moments P = ElementLoad::legendre(1. - 2. * (u - u0) / (u1 - u0));
-          for (unsigned int j = 0; j < P.size(); ++j)
-            moments[j] += force * P[j];
-          load.size += std::fabs(force);
-        }
-      }
-    if (load.size == 0.)
-      return;
-    for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
+    const double a = shape.shape.a(0., t), stretch = shape.a / a;
+    start = stretch * shape.first + (shape.b - shape.shape.b(0., t)) / a;
+    width = stretch * shape.width;
+    per_length = 1. / width;
+  }
+
+  bool TravellingShape::Walk::go_to(const double s)
+  {
+    const double place = (start - s) * per_length, own = std::ceil(place) - 1.;
+    if (!(std::fabs(own) < most_bins && width > 0.) || !enter(static_cast<long>(own)))
+      return false;
+    const double u = place - own;
+    while (piece->begin >= u && piece != &bin->pieces.front())
+      --piece;
+    while (piece->end < u && piece != &bin->pieces.back())
+      ++piece;
+    set_ends();
+    return true;
+  }
+
+  bool TravellingShape::Walk::advance()
+  {
+    if (piece != &bin->pieces.front())
+      --piece;
+    else if (!enter(number - 1))
+      return false;
+    set_ends();
+    return true;
+  }
+
+  /// At the last piece of a bin if it is another one.
+  bool TravellingShape::Walk::enter(const long own)
+  {
+    if (!bin || number != own)
     {
-      const double u = place(element.places[q]);
-      move_to(u);
-      load.values[q] = shape.bins[bin].pieces[piece](u - bin);
+      number = own;
+      bin = &shape.bin(number);
+      piece = bin->is_known ? &bin->pieces.back() : nullptr;
+      narrow = bin->narrow < 0. ? std::numeric_limits<double>::quiet_NaN()
+                                : start - (number + bin->narrow) * width;
     }
-    load.take_cubic(moments, LoadIntegral::kept * load.size);
-    move_to(u0);
+    return piece;
+  }
+
+  void TravellingShape::Walk::set_ends()
+  {
+    from = start - (number + piece->end) * width;
+    to = start - (number + piece->begin) * width;
+    const double reach = piece->reach * width;
+    low = from - reach;
+    high = to + reach;
+    per_piece = per_length / (piece->end - piece->begin);
   }
 } // namespace taut

@@ -2,54 +2,52 @@
 #ifndef taut_travelling_shape_h
 #define taut_travelling_shape_h
 
-#include "wire/element_load.h"
 #include <taut/scene/expression.h>
 
-#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace taut
 {
-  /// The speed b / a of a formula of (a*s - b*t) alone, written so, with or without the factors and
-  /// as quotients, too [m/s]; 0: it is another one.
-  double speed_of_shape(const std::string &formula);
-
   /**
-   * A force per length q(s - v t) that travels along a wire without changing its shape. The shape
-   * is looked at once as it comes onto the wire, and kept as polynomials of degree 5 on pieces,
-   * which are bisected around kinks and jumps. An element takes its integrals from them.
+   * A function q(s - x(t)) that travels along a wire without changing its shape. The shape is
+   * looked at once as it comes onto the wire, and kept as polynomials of degree 5 on pieces, which
+   * are bisected around kinks and jumps.
    *
    * Bins of some elements are looked at one after the other, at 250 places for each element:
-   * narrower details may not be seen. What an element gets depends on t alone, not on earlier
-   * calls.
+   * narrower details may not be seen. What a place gets depends on t alone, not on earlier calls.
    */
   class TravellingShape
   {
   public:
-    /// @p formula has this speed, above 0; the elements lie from @p begin to @p end of a wire of
-    /// this length and have this mean length [m/s, m].
-    TravellingShape(const Expression &formula, double speed, double wire_length, double begin,
+    static constexpr unsigned int degree = 5;
+
+    /// The elements lie from @p begin to @p end of a wire of this length and have this mean length
+    /// [m].
+    TravellingShape(const Expression::Separated::Shape &shape, double wire_length, double begin,
                     double end, double element_length);
 
-    /// The load of elements one after the other along the wire, at one time.
+    /// Values along the wire, at one time.
     class Walk;
 
   private:
-    static constexpr unsigned int n_coefficients = 6;
+    static constexpr unsigned int n_coefficients = degree + 1;
 
     /// Places in a bin are parts of its width, in the direction against s.
     struct Piece
     {
       double begin, end;
+      double reach; ///< up to which the polynomial is good beyond both ends
       bool is_zero;
       std::array<double, n_coefficients> coefficients; ///< of powers of the part of the piece
 
-      double operator()(double u) const
+      double operator()(double u) const { return at_part((u - begin) / (end - begin)); }
+
+      double at_part(const double x) const
       {
-        const double x = (u - begin) / (end - begin);
         double result = coefficients.back();
         for (unsigned int j = n_coefficients - 1; j-- > 0;)
           result = result * x + coefficients[j];
@@ -58,22 +56,25 @@ namespace taut
     };
     struct Bin
     {
-      bool is_looked_at = false, is_known = false;
+      bool is_known = false;
       double narrow = -1.; ///< where one place alone sees a load; below 0: nowhere
       std::vector<Piece> pieces;
     };
 
-    Bin look(std::size_t bin) const;
-    bool resolve(std::size_t bin, double begin, double end, double most, Bin &result) const;
+    const Bin &bin(long number) const;
+    Bin look(long bin) const;
+    bool resolve(long bin, double begin, double end, double most, Bin &result) const;
+    bool is_good(const Piece &piece, double begin, double end, double accepted) const;
     void evaluate(double bin, const std::vector<double> &u, std::vector<double> &values) const;
     double largest_of(const std::vector<double> &values) const;
 
-    Expression formula;
-    double speed, width, first;  ///< first: the end of the first bin at t = 0 [m]
-    double largest = 0.;         ///< absolute value on the wire and as far behind it at the start
-    std::vector<double> samples; ///< places in a bin
+    Expression::Separated::Shape shape;
+    double a, b;                 ///< at t = 0
+    double width, first;         ///< of bins; the end of the first bin at t = 0 [m]
+    double largest = 0.;         ///< absolute value on the wire and as far off it at the start
+    std::vector<double> samples; ///< places in a bin, and in an element before and behind it
 
-    mutable std::vector<Bin> bins;
+    mutable std::unordered_map<long, Bin> bins;
     mutable std::vector<double> sampled, places, points, values;
   };
 
@@ -83,21 +84,41 @@ namespace taut
     /// At the time t [s]; @p shape is kept by reference.
     Walk(const TravellingShape &shape, double t);
 
-    /// The load of the next element, with its values; its size is 0 where these are. False if the
-    /// shape is not known there: at times before 0, where the formula has no value, and where too
-    /// many pieces do not resolve it. A load that one place alone sees is not resolved.
-    bool on(const LoadedElement &element, ElementLoad &load);
+    /// Goes to the piece at s [m]. False if the shape is not known there: where the formula has no
+    /// value, and where too many pieces do not resolve it.
+    bool go_to(double s);
+
+    /// Goes on to the next piece along the wire. False as go_to().
+    bool advance();
+
+    /// Ends of the piece [m].
+    double begin() const { return from; }
+    double end() const { return to; }
+
+    /// Whether the polynomial of the piece is good from s0 to s1, which may reach over its ends.
+    bool covers(const double s0, const double s1) const { return s0 >= low && s1 <= high; }
+
+    bool is_zero() const { return piece->is_zero; }
+
+    /// Whether only one of the places that are looked at sees something, and lies from s0 to s1 in
+    /// the bin of this piece.
+    bool is_narrow(const double s0, const double s1) const { return narrow >= s0 && narrow <= s1; }
+
+    /// Value where the piece covers s.
+    double operator()(const double s) const { return piece->at_part((to - s) * per_piece); }
 
   private:
-    double place(const double s) const { return std::max(0., start - s * per_length); }
-    bool move_to(double u);
-    void integrate(const LoadedElement &element, double u0, double u1, ElementLoad &load);
+    bool enter(long bin);
+    void set_ends();
 
     const TravellingShape &shape;
-    double start, per_length; ///< places of s = 0 and of a metre, in bins
-    bool is_before;
-    std::size_t bin = 0, piece = 0; ///< of the last place
-    double from = 0., to = -1.;     ///< the ends of its piece
+    double start, width, per_length; ///< where bin 0 ends at this time, width of bins [m, 1/m]
+    long number = 0;                 ///< of the bin
+    const Bin *bin = nullptr;
+    const Piece *piece = nullptr;
+    double from = 0., to = -1., narrow = 0.; ///< [m]
+    double low = 0., high = -1.;             ///< to where the piece is good [m]
+    double per_piece = 0.;                   ///< pieces in a metre
   };
 } // namespace taut
 

@@ -191,14 +191,16 @@ namespace taut
     };
   } // namespace
 
-  /// Products of a function of s and one of t are integrated here, once.
+  /// Products of a function of s and one of t are integrated here, once; those that travel by their
+  /// shapes.
   void WireComponent::add_distributed_load(const Load &load, const double factor)
   {
-    const auto part = [&](const Expression &magnitude)
+    const auto part = [&](const Expression &magnitude,
+                          const Expression::Separated::Travelling *const travelling = nullptr)
     {
       Load own = load;
       own.magnitude = magnitude;
-      return std::make_unique<DistributedLoad>(*this, factor, own);
+      return std::make_unique<DistributedLoad>(*this, factor, own, travelling);
     };
     const auto add_standing = [&](const Expression &magnitude)
     { part(magnitude)->add(0., constant_force); };
@@ -220,6 +222,8 @@ namespace taut
         add_standing(product.of_place);
     if (!products->empty())
       time_loads.push_back(std::move(products));
+    for (const Expression::Separated::Travelling &product : separated.travelling)
+      time_loads.push_back(part(product.whole, &product));
     if (separated.rest.depends_on_time())
       time_loads.push_back(part(separated.rest));
     else if (!separated.rest.is_zero())

@@ -119,14 +119,27 @@ namespace
     EXPECT_EQ(n_wrong, std::vector<int>(n_threads, 0));
   }
 
+  double value_of(const Expression::Separated::Travelling &term, const double s, const double t)
+  {
+    double result = term.of_time(0., t);
+    for (const auto &[form, a, b] : term.factors)
+      result *= form((a(0., t) * s + b(0., t) - b(0., 0.)) / a(0., 0.), 0.);
+    return result;
+  }
+
   /// Values of a formula that is taken apart are those of the whole, to rounding.
-  void expect_same(const std::string &text, const std::size_t n_products, const bool has_rest)
+  void expect_same(const std::string &text, const std::size_t n_products, const bool has_rest,
+                   const std::vector<std::size_t> &n_shapes = {})
   {
     SCOPED_TRACE(text);
     const Expression formula(text, "formula");
     const Expression::Separated parts = formula.separated();
     EXPECT_EQ(parts.products.size(), n_products);
     EXPECT_EQ(!parts.rest.is_zero(), has_rest);
+    std::vector<std::size_t> found;
+    for (const auto &term : parts.travelling)
+      found.push_back(term.factors.size());
+    EXPECT_EQ(found, n_shapes);
     for (const auto &[of_place, of_time] : parts.products)
       EXPECT_TRUE(of_place(1., 2.) == of_place(1., 3.) && of_time(1., 2.) == of_time(5., 2.));
     for (const double s : {.3, 1., 1.7, 4.99, 7.3})
@@ -137,6 +150,12 @@ namespace
         {
           sum += of_place(s, 0.) * of_time(0., t);
           size += std::fabs(of_place(s, 0.) * of_time(0., t));
+        }
+        for (const auto &term : parts.travelling)
+        {
+          EXPECT_NEAR(term.whole(s, t), value_of(term, s, t), 2e-14) << s << ", " << t;
+          sum += term.whole(s, t);
+          size += std::fabs(term.whole(s, t));
         }
         EXPECT_NEAR(sum, formula(s, t), 1e-14 * size) << s << ", " << t;
       }
@@ -154,13 +173,28 @@ namespace
     expect_same("1e+2*s - 2*t - exp(-s)*t^2 - -s", 4, false);
     expect_same("2^-s*t", 1, false);
     expect_same("3*t - -sin(s*t) + -cos(s*t)", 1, true);
-    expect_same("-s^2*t + 1.5E-1*exp(-(s-2*t)^2) - 4", 2, true);
-    expect_same("3*s*t - exp(-(s-2*t)^2)/(1+s)", 1, true);
     expect_same("if(t<1,0,t-1)*(s>2) + min(s,3)*max(t,1)", 2, false);
     expect_same("t < 1 ? 0 : t", 1, false);
     expect_same("t < 1 ? 0 : s", 0, true);
     expect_same("s > 2 & t < 3", 0, true);
     expect_same("(s > 2)*(t < 3)", 1, false);
+  }
+
+  TEST(Formulas, shapes_that_travel_are_taken_apart)
+  {
+    expect_same("-s^2*t + 1.5E-1*exp(-(s-2*t)^2) - 4", 2, false, {1});
+    expect_same("3*s*t - exp(-(s-2*t)^2)/(1+s)", 1, false, {2});
+    expect_same("sin(0.5*s-3*t) + cos((s/2 - t*3)*1)", 0, false, {1}); // as they are written
+    expect_same("sin(.5*s-3*t)*(1+t)/exp(s+t^2)", 0, false, {2});
+    expect_same("tanh((s-2*t-1)/(3+t))*(t<2)", 0, false, {1});
+    expect_same("abs(s-2*t) < .3 ? 1 : (s-2*t)^3", 0, false, {1});
+    expect_same("max(0,1-abs(s-int(t))/2)", 0, false, {1});
+    expect_same("sin(s-2*t)+sin(2*s-3*t)-cos(3*s-6*t)", 0, false, {1, 1});
+    expect_same("exp(-((-(s-4)/3+2*t)/.7)^2)*(3-(-s+6*t))", 0, false, {1});
+    // Not in sums of s alone, or in sums of different ways.
+    for (const std::string text : {"sin(s-2*t)^t", "exp(-(s-t)^2-t)", "sin((s-t)*(s-2*t))",
+                                   "sin(s*t)", "sin(s^2-t)", "s<2*t ? 1 : 0", "sin(s-1/(t-t))"})
+      EXPECT_TRUE(Expression(text, "formula").separated().travelling.empty()) << text;
   }
 
   std::string message(const std::string &text, const Expression::Variables variables)

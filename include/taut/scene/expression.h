@@ -64,8 +64,8 @@ namespace taut
     /// one. Throws as operator().
     void evaluate(const std::vector<double> &s, double t, std::vector<double> &result) const;
 
-    /// The formula in s and t as a sum of products of a function of s and one of t, as it is
-    /// written, and the rest of it.
+    /// The formula in s and t as a sum of products of a function of s and one of t, of products
+    /// with shapes that travel, and of a rest, as it is written.
     struct Separated;
     Separated separated() const;
 
@@ -111,7 +111,20 @@ namespace taut
     {
       Expression of_place, of_time;
     };
+
+    /// A function of a(t)*s + b(t) alone: it travels along s and widens. Its value at s and t is
+    /// form(x, 0) at the place x where this sum was at the start.
+    struct Shape
+    {
+      Expression form, a, b;
+    };
+    struct Travelling
+    {
+      std::vector<Shape> factors; ///< one of which may stand
+      Expression of_time, whole;  ///< a further factor, and the product
+    };
     std::vector<Product> products;
+    std::vector<Travelling> travelling;
     Expression rest; ///< zero: there is none
   };
 } // namespace taut

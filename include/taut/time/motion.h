@@ -108,8 +108,8 @@ namespace taut
     bool is_at_step() const;
     long n_repeated() const;
 
-    const InitialState &start() const { return initial; }
-    const Reference &reference() const { return initial.reference; }
+    const InitialState &start() const { return *initial; }
+    const Reference &reference() const { return initial->reference; }
 
     /// State after the last step, or at the start, and its residuals.
     const State &state() const;
@@ -194,6 +194,10 @@ namespace taut
     /// The parts of a prepared motion.
     struct Parts;
 
+    Motion(Structure &structure, Constraints &constraints, const StepperOptions &options,
+           std::shared_ptr<const InitialState> start, std::shared_ptr<const TimeIntegrator> scheme,
+           long n_steps, std::vector<LongestStep> longest_steps);
+
     const ContactResolution &resolution();
     void begin(long n_steps);
     void prepare_method(const TimeIntegrator &scheme, const StepCoefficients &c);
@@ -214,7 +218,7 @@ namespace taut
     Structure &structure;
     Constraints &constraints;
     const StepperOptions options;
-    InitialState initial;
+    std::shared_ptr<const InitialState> initial; ///< which another Motion may have, too
     EnergyAccount energy;
     ContactMeasures contact_measures;
     SchemeChoice chosen;
