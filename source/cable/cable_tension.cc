@@ -130,11 +130,11 @@ namespace taut
       for (unsigned int k = 0; k <= pieces; ++k)
       {
         const double s = std::min(element.place(e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s);
-        lines[e].push_back({add_scaled(data.from, 1., r),
-                            r - element.position(found.positions, s),
+        const Coordinates at_rest = element.position(found.positions, s);
+        lines[e].push_back({add_scaled(data.from, 1., at_rest),
+                            element.position(q, s) - at_rest,
                             {s, tension(s)}});
       }
-    write_lines(path, lines, {"unstressed_arc_length", "tension"});
+    write_lines(path, lines, {{"unstressed_arc_length", "m"}, {"tension", "N"}});
   }
 } // namespace taut

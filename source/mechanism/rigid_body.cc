@@ -358,10 +358,7 @@ namespace taut
     {
       lines.emplace_back();
       for (const Coordinates &at : {a, b})
-      {
-        const Coordinates now = place(U, at);
-        lines.back().push_back({now, now - at, {}});
-      }
+        lines.back().push_back({at, place(U, at) - at, {}});
     };
     for (std::size_t k = 1; k < data.outline.size(); ++k)
       add_line(data.outline[k - 1], data.outline[k]);

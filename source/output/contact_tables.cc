@@ -91,6 +91,8 @@ namespace taut
   {
     folder = run.folder + "/";
     interval = run.interval;
+    if (field_interval > 0. && !contacts.empty() && run.communicator.is_root())
+      fields_folder = make_fields_folder(run.folder);
     is_root = run.communicator.is_root();
     if (!is_root)
       return;
@@ -116,11 +118,13 @@ namespace taut
         append(constraint.normal, normals);
       }
       contact.picture = std::make_unique<VtuFile>(all.size(), cells);
-      contact.displacement = contact.picture->add(VtuFile::Location::points, "displacement", 3);
-      contact.pressure = contact.picture->add(VtuFile::Location::points, "pressure", 1);
-      contact.gap = contact.picture->add(VtuFile::Location::points, "gap", 1);
-      contact.picture->set(contact.picture->add(VtuFile::Location::points, "normal", 3), normals);
-      contact.collection = std::make_unique<PvdFile>(folder + contact.stem + ".pvd");
+      contact.displacement =
+          contact.picture->add(VtuFile::Location::points, "displacement", 3, "m");
+      contact.pressure = contact.picture->add(VtuFile::Location::points, "pressure", 1, is_line ? "N/m" : "Pa");
+      contact.gap = contact.picture->add(VtuFile::Location::points, "gap", 1, "m");
+      contact.picture->set(contact.picture->add(VtuFile::Location::points, "normal", 3, "1"),
+                           normals);
+      contact.collection = std::make_unique<PvdFile>(fields_folder + contact.stem + ".pvd");
     }
   }
 
@@ -194,7 +198,7 @@ namespace taut
     const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      append(place_of(contact.geometry, i, displacements[i]), places);
+      append(all[i].point, places);
       append(displacements[i], moved);
       pressure.push_back(static_cast<float>(state.multiplier[first + i] / all[i].area));
       gap.push_back(static_cast<float>(state.distance[first + i]));
@@ -204,7 +208,7 @@ namespace taut
     contact.picture->set(contact.pressure, pressure);
     contact.picture->set(contact.gap, gap);
     const std::string file = frame(contact.stem, contact.collection->size());
-    contact.picture->write(folder + file);
+    contact.picture->write(fields_folder + file);
     contact.collection->add(state.time, file);
   }
 

@@ -19,7 +19,7 @@ namespace taut
    * area, largest pressure (of a cable length and force per length) and least gap.
    * `contact_<name>_NNNNN.vtu`, joined by `contact_<name>.pvd`, are for ParaView. They have the
    * nodes of the slave that may touch, with displacement, pressure, gap and normal. Places are
-   * displaced on cables and undeformed on solids, as in `body_<name>.pvd`.
+   * undeformed, as in `body_<name>.pvd`, in the folder `fields`.
    */
   class ContactTables : public Observer
   {
@@ -50,7 +50,7 @@ namespace taut
                        const std::vector<Coordinates> &displacements);
 
     std::vector<Contact> contacts;
-    std::string folder;
+    std::string folder, fields_folder;
     double interval = 0., field_interval, next = 0., next_field = 0.;
     bool is_root = false;
   };

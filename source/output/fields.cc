@@ -45,13 +45,19 @@ namespace taut
     }
   } // namespace
 
-  Fields::Fields(const std::string &folder, const Scene &scene, const SceneBodies &structure,
+  Fields::Fields(const std::string &results, const Scene &scene, const SceneBodies &structure,
                  const double interval, const unsigned int subdivisions)
-      : folder(folder), interval(interval), wire_collection(folder + "/wires.pvd"),
-        link_collection(folder + "/links.pvd")
+      : folder(results + "/fields/"), interval(interval), wire_collection(folder + "wires.pvd"),
+        link_collection(folder + "links.pvd")
   {
     if (interval == 0.)
       return;
+    structure.communicator().agree(
+        [&]
+        {
+          if (structure.communicator().is_root())
+            make_fields_folder(results);
+        });
     if (!scene.wires.empty())
       add_wires(scene, structure, subdivisions);
     if (!scene.links.empty())
@@ -78,8 +84,7 @@ namespace taut
             throw EntryError(scene.bodies[i].origin, "its files would be '" + stem +
                                                          "_*.vtu', which are those of another "
                                                          "body; rename one");
-        bodies.push_back(
-            {stem, structure.indices_of_body(i), PvdFile(folder + "/" + stem + ".pvd"), 0});
+        bodies.push_back({stem, structure.indices_of_body(i), PvdFile(folder + stem + ".pvd"), 0});
       }
   }
 
@@ -94,8 +99,7 @@ namespace taut
         const std::string frame =
             numbered(is_whole ? body.stem : body.stem + "_part" + std::to_string(part), number);
         if (const std::size_t k = body.parts[part]; k != Structure::elsewhere)
-          step.structure[k].write_vtu(folder + "/" + frame,
-                                      displacement(step.reference, step.state, k));
+          step.structure[k].write_vtu(folder + frame, displacement(step.reference, step.state, k));
         if (step.structure.communicator().is_root())
           body.collection.add(step.state.time, frame, part);
       }
@@ -133,7 +137,7 @@ namespace taut
     }
     wire_file = std::make_unique<VtuFile>(wires.size(), lines);
     wire_file->set(VtuFile::positions, places(wires));
-    wire_displacement = wire_file->add(VtuFile::Location::points, "displacement", 3);
+    wire_displacement = wire_file->add(VtuFile::Location::points, "displacement", 3, "m");
     wire_file->add(VtuFile::Location::cells, "wire", numbers);
     wire_file->add(VtuFile::Location::cells, "part", parts);
     wire_file->add(VtuFile::Location::cells, "name", names);
@@ -164,10 +168,10 @@ namespace taut
         n_fixed_ends = ends.size();
     }
     link_file = std::make_unique<VtuFile>(ends.size(), lines);
-    link_displacement = link_file->add(VtuFile::Location::points, "displacement", 3);
-    force = link_file->add(VtuFile::Location::points, "force", 1);
-    gap = link_file->add(VtuFile::Location::points, "gap", 1);
-    open = link_file->add(VtuFile::Location::points, "open", 1);
+    link_displacement = link_file->add(VtuFile::Location::points, "displacement", 3, "m");
+    force = link_file->add(VtuFile::Location::points, "force", 1, "N, N m");
+    gap = link_file->add(VtuFile::Location::points, "gap", 1, "m, rad");
+    open = link_file->add(VtuFile::Location::points, "open", 1, "1");
     link_file->add(VtuFile::Location::cells, "name", names);
   }
 
@@ -306,7 +310,7 @@ namespace taut
                      PvdFile &collection) const
   {
     const std::string frame = numbered(name, collection.size());
-    file.write(folder + "/" + frame);
+    file.write(folder + frame);
     collection.add(step.state.time, frame);
   }
 } // namespace taut

@@ -5,6 +5,7 @@
 #include <taut/output/vtu_file.h>
 
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 namespace taut
@@ -34,6 +35,15 @@ namespace taut
       return location == VtuFile::Location::points ? "PointData" : "CellData";
     }
 
+    /// Names of the components of a vector, and units, which readers of VTK pass over.
+    std::string attributes(const unsigned int n_components, const std::string &units)
+    {
+      std::string text;
+      for (unsigned int c = 0; c < n_components && n_components == 3; ++c)
+        text += "ComponentName" + std::to_string(c) + "=\"" + "xyz"[c] + "\" ";
+      return units.empty() ? text : text + "units=\"" + units + "\" ";
+    }
+
     const std::string tail = "</Collection>\n</VTKFile>\n"; ///< of a collection
 
     constexpr std::uint8_t vertex = 1, poly_line = 4; ///< types of cells in VTK
@@ -51,18 +61,18 @@ namespace taut
       types.push_back(cell.size() == 1 ? vertex : poly_line);
     }
     arrays.push_back(
-        {"Points", "positions", "Float32", 3, bytes_of(std::vector<float>(3 * n_points))});
+        {"Points", "positions", "Float32", 3, bytes_of(std::vector<float>(3 * n_points)), "m"});
     arrays.push_back({"Cells", "connectivity", "Int32", 1, bytes_of(connectivity)});
     arrays.push_back({"Cells", "offsets", "Int32", 1, bytes_of(offsets)});
     arrays.push_back({"Cells", "types", "UInt8", 1, bytes_of(types)});
   }
 
   std::size_t VtuFile::add(const Location location, const std::string &name,
-                           const unsigned int n_components)
+                           const unsigned int n_components, const std::string &units)
   {
     const std::size_t n = (location == Location::points ? n_points : n_cells) * n_components;
     arrays.push_back(
-        {section(location), name, "Float32", n_components, bytes_of(std::vector<float>(n))});
+        {section(location), name, "Float32", n_components, bytes_of(std::vector<float>(n)), units});
     return arrays.size() - 1;
   }
 
@@ -108,7 +118,8 @@ namespace taut
         const bool is_text = array.type == "String";
         text += std::string(is_text ? "<Array" : "<DataArray") + " type=\"" + array.type +
                 "\" Name=\"" + array.name + "\" NumberOfComponents=\"" +
-                std::to_string(array.n_components) + "\" format=\"";
+                std::to_string(array.n_components) + "\" " +
+                attributes(array.n_components, array.units) + "format=\"";
         if (is_text)
           text += "ascii\">\n" + array.bytes + "</Array>\n";
         else
@@ -133,6 +144,17 @@ namespace taut
         }
     text += "\n</AppendedData>\n</VTKFile>\n";
     write_file(path, text);
+  }
+
+  std::string make_fields_folder(const std::string &results)
+  {
+    const std::string folder = results + "/fields";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw NotWritten("cannot make '" + folder + "': " + error.message() +
+                       "; name another folder in Output/Folder, or make room for this one");
+    return folder + "/";
   }
 
   void PvdFile::resume(const std::size_t n, const std::size_t length)

@@ -1,7 +1,7 @@
 #!/usr/bin/env pvpython
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Shows the motion of a results folder of taut in ParaView: wires warped by their displacement, links as points
-coloured by force.
+"""Shows the motion of a results folder of taut in ParaView: wires, bodies and links warped by their displacement, links as
+points coloured by force.
 
   paraview --script=<path>/show_in_paraview.py               in a results folder, opens ParaView
   pvpython show_in_paraview.py RESULTS                       opens a window and plays the run
@@ -11,13 +11,14 @@ Displacements are drawn --factor times larger than they are, then all heights ar
 suits a line that is much longer than high."""
 
 import argparse
+import glob
 import os
 import sys
 
 from paraview import simple as pv
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("results", nargs="?", default=".", metavar="RESULTS", help="folder with wires.pvd and links.pvd")
+parser.add_argument("results", nargs="?", default=".", metavar="RESULTS", help="folder of a run")
 parser.add_argument("--factor", type=float, default=1., help="exaggeration of displacements (1)")
 parser.add_argument("--height", type=float, help="exaggeration of heights (as much as a wide picture takes)")
 parser.add_argument("--point-size", type=float, default=8., help="of a link, in pixels (8)")
@@ -26,12 +27,9 @@ parser.add_argument("--picture", metavar="FILE.png", help="draw one time into a 
 arguments, _ = parser.parse_known_args(getattr(sys, "argv", [""])[1:])  # ParaView's own shell may hand over its own
 
 
-def warped(name):
-    """The fields of a collection, warped; None if the run has none."""
-    path = os.path.abspath(os.path.join(arguments.results, name))
-    if not os.path.exists(path):
-        return None
-    reader = pv.PVDReader(FileName=path)
+def warped(path):
+    """The fields of a collection, warped."""
+    reader = pv.PVDReader(FileName=os.path.abspath(path))
     return pv.WarpByVector(Input=reader, Vectors=["POINTS", "displacement"], ScaleFactor=arguments.factor)
 
 
@@ -43,10 +41,11 @@ def higher(source, factor):
     return scaled
 
 
-wires, links = warped("wires.pvd"), warped("links.pvd")
-if not wires and not links:
-    sys.exit(f"show_in_paraview.py: no wires.pvd or links.pvd in '{arguments.results}'; "
-             "run with Output/Field interval > 0")
+sources = {os.path.basename(path)[:-4]: warped(path)
+           for path in sorted(glob.glob(os.path.join(arguments.results, "fields", "*.pvd")))
+           if not os.path.basename(path).startswith("contact_")}
+if not sources:
+    sys.exit(f"show_in_paraview.py: no fields in '{arguments.results}'; run with Output/Field interval > 0")
 
 view = pv.GetActiveViewOrCreate("RenderView")
 view.ViewSize = [1600, 600]
@@ -60,14 +59,17 @@ if arguments.time is None:
 else:
     scene.AnimationTime = arguments.time
 
-(wires or links).UpdatePipeline(scene.AnimationTime)
-bounds = (wires or links).GetDataInformation().GetBounds()
-width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
+bounds = []
+for source in sources.values():
+    source.UpdatePipeline(scene.AnimationTime)
+    bounds.append(source.GetDataInformation().GetBounds())
+width, height = (max(b[i + 1] for b in bounds) - min(b[i] for b in bounds) for i in (0, 2))
 factor = arguments.height or (max(1., 0.2 * width / height) if height > 0. else 1.)
-wires, links = (source and higher(source, factor) for source in (wires, links))
+sources = {name: higher(source, factor) for name, source in sources.items()}
+links = sources.pop("links", None)
 
-if wires:
-    shown = pv.Show(wires, view)
+for source in sources.values():
+    shown = pv.Show(source, view)
     pv.ColorBy(shown, ("POINTS", ""))
     shown.AmbientColor = shown.DiffuseColor = [0.2, 0.2, 0.2]
     shown.LineWidth = 1.5

@@ -31,7 +31,7 @@ def writer_of(kind):
 def read_frames(results):
     """Times and, of each wire and cable, its segments [n, 2, 3] at these times; names of wires."""
     times, lines = [], {}
-    frames = read_collection(results.path("wires.pvd")) if results.has("wires.pvd") else []
+    frames = read_collection(results.path("fields/wires.pvd")) if results.has("fields/wires.pvd") else []
     bodies = line_bodies(results)
     every = [time for time, _ in frames or next((c for c in bodies.values() if c), [])]
     kept = set(every[::max(1, -(-len(every) // MOST_FRAMES))])
@@ -54,7 +54,7 @@ def read_frames(results):
 
 def read_link_frames(results, times):
     """The links between wires and bodies at these times, [n, links, 2, 3]; none where not all times have the same ones."""
-    paths = dict(read_collection(results.path("links.pvd"))) if results.has("links.pvd") else {}
+    paths = dict(read_collection(results.path("fields/links.pvd"))) if results.has("fields/links.pvd") else {}
     if not all(time in paths for time in times):
         return np.empty((len(times), 0, 2, 3))
     without = sliding_contacts(results)

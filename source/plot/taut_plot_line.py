@@ -19,14 +19,14 @@ LINE = 3  # number of VTK
 
 def plan_and_elevation(results, _):
     """Nothing for wires in one vertical plane."""
-    frames = read_collection(results.path("wires.pvd")) if results.has("wires.pvd") else []
+    frames = read_collection(results.path("fields/wires.pvd")) if results.has("fields/wires.pvd") else []
     if not frames:
         return None, None
     points, displacement, wires, names = read_vtu(frames[0][1])
     now = points + displacement
     if np.ptp(now[:, 2]) <= 1e-6 * np.ptp(now, axis=0).max():
         return None, None
-    links = read_links(read_collection(results.path("links.pvd"))[0][1]) if results.has("links.pvd") else []
+    links = read_links(read_collection(results.path("fields/links.pvd"))[0][1]) if results.has("fields/links.pvd") else []
     figure, grid = panels(2, 2.0, sharex=True)
     # Only the longest wires have names.
     by_length = sorted(wires, key=lambda w: -np.ptp(now[wires[w]], axis=0).max())
@@ -52,7 +52,7 @@ def lines_of(arrays):
     None for a solid."""
     if not len(arrays.get("types", ())) or (arrays["types"] != LINE).any():
         return None
-    now = arrays["positions"].astype(float)
+    now = arrays["positions"].astype(float) + arrays["displacement"].astype(float)
     return now[arrays["connectivity"].reshape(-1, 2)]
 
 
@@ -64,7 +64,7 @@ def body_lines(arrays):
 
 def line_bodies(results):
     """{name: [(time, file)]} of the fields of bodies; cables and rigid bodies among them consist of lines."""
-    files = sorted(glob.glob(os.path.join(results.folder, "body_*.pvd")))
+    files = sorted(glob.glob(os.path.join(results.folder, "fields", "body_*.pvd")))
     return {results.name_of(os.path.basename(file)[5:-4]): read_collection(file) for file in files}
 
 
@@ -102,8 +102,8 @@ def sketch(results, _):
     if not segments:
         return None, "no wires, cables or solids in the plane with fields (Output/Field interval)"
     points = np.concatenate([line.reshape(-1, 3) for line in segments])
-    links = read_links(read_collection(results.path("links.pvd"))[0][1], sliding_contacts(results)) \
-        if results.has("links.pvd") else []
+    links = read_links(read_collection(results.path("fields/links.pvd"))[0][1], sliding_contacts(results)) \
+        if results.has("fields/links.pvd") else []
     links += guys(results, points[:, 1].min(), np.ptp(points, axis=0).max())
     every = np.concatenate([points, *(link.reshape(-1, 3) for link in links)]) if links else points
     width, height = np.ptp(every[:, 0]), np.ptp(every[:, 1])
@@ -137,7 +137,7 @@ def scene_lines(results):
     """The segments [n, 2, 3] of each wire, body of lines and outline of a solid in the plane at the first field, long ones
     first, and their names."""
     found = []
-    frames = read_collection(results.path("wires.pvd")) if results.has("wires.pvd") else []
+    frames = read_collection(results.path("fields/wires.pvd")) if results.has("fields/wires.pvd") else []
     if frames:
         points, displacement, wires, names = read_vtu(frames[0][1])
         now = points + displacement

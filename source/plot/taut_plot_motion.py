@@ -126,7 +126,7 @@ def shown_wires(results, wires, names, points, wanted):
 def read_motions(results, wanted):
     """The motion of the wanted wire, by name or number; of those that contacts run on, or of the lowest one, if it is None."""
     times, fields, chosen = [], {}, []
-    for time, path in read_collection(results.path("wires.pvd")):
+    for time, path in read_collection(results.path("fields/wires.pvd")):
         points, displacement, wires, names = read_vtu(path)
         if not times:
             chosen = shown_wires(results, wires, names, points, wanted)
@@ -159,7 +159,7 @@ def motion_of(name, times, points, motion):
 
 
 def displacement_map(results, options):
-    if not results.has("wires.pvd"):
+    if not results.has("fields/wires.pvd"):
         return None, "no wires, or no fields of them (Output/Field interval = 0)"
     motions = [m for m in read_motions(results, options.wire) if len(m.times) > 2]
     motions = [m for m in motions if np.ptp(m.u) > ROUNDING * np.ptp(m.s)]
@@ -219,7 +219,7 @@ def draw_contacts(panel, results, wire, handles):
 
 def envelope(results, options):
     """Highest and lowest displacement of a wire over the run, and its profile at the start: the sag."""
-    if not results.has("wires.pvd"):
+    if not results.has("fields/wires.pvd"):
         return None, "no wires, or no fields of them (Output/Field interval = 0)"
     motions = [m for m in read_motions(results, options.wire) if m.is_x]
     motions = [m for m in motions if m.moves() or np.ptp(m.height) > ROUNDING * np.ptp(m.s)]

@@ -54,7 +54,7 @@ def read_arrays(path):
 def last_fields(results, kind, wanted=None):
     """[(name, time, arrays)] of the last field of each contact or body, or of the last one with something of this array."""
     found = []
-    for path in sorted(glob.glob(os.path.join(results.folder, f"{kind}_*.pvd"))):
+    for path in sorted(glob.glob(os.path.join(results.folder, "fields", f"{kind}_*.pvd"))):
         name = results.name_of(os.path.basename(path)[len(kind) + 1:-4])
         fields = ((name, time, read_arrays(file)) for time, file in reversed(read_collection(path)))
         field = next((f for f in fields if wanted is None or (wanted in f[2] and f[2][wanted].any())), None)

@@ -53,15 +53,17 @@ namespace taut
              (ending == ".csv" && begins("contact_"));
     }
 
-    /// Files of a run in a folder; none in an unreadable folder, which writing then reports.
+    /// Files of a run in a folder and its fields; none in an unreadable folder, which writing then
+    /// reports.
     std::vector<fs::path> results_in(const fs::path &folder)
     {
       const std::set<std::string> names = names_of_results();
       std::vector<fs::path> results;
       std::error_code error;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-        if (is_of_results(entry.path().filename().string(), names))
-          results.push_back(entry.path());
+      for (const fs::path &place : {folder, folder / "fields"})
+        for (const fs::directory_entry &entry : fs::directory_iterator(place, error))
+          if (is_of_results(entry.path().filename().string(), names))
+            results.push_back(entry.path());
       return results;
     }
 
@@ -74,19 +76,20 @@ namespace taut
         names.insert(copied_name(name));
       const std::regex unfinished("(.+)\\.[0-9]+\\.tmp");
       std::error_code error;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-      {
-        std::smatch parts;
-        std::string name = entry.path().filename().string();
-        if (!std::regex_match(name, parts, unfinished))
-          continue;
-        for (name = parts[1]; name.find('.') != std::string::npos;)
+      for (const fs::path &place : {folder, folder / "fields"})
+        for (const fs::directory_entry &entry : fs::directory_iterator(place, error))
         {
-          name.resize(name.rfind('.'));
-          if (is_of_results(name, names))
-            fs::remove(entry.path(), error);
+          std::smatch parts;
+          std::string name = entry.path().filename().string();
+          if (!std::regex_match(name, parts, unfinished))
+            continue;
+          for (name = parts[1]; name.find('.') != std::string::npos;)
+          {
+            name.resize(name.rfind('.'));
+            if (is_of_results(name, names))
+              fs::remove(entry.path(), error);
+          }
         }
-      }
     }
 
     /// Copies of the files that a run reads must not take the place of others.

@@ -45,8 +45,10 @@ namespace taut
   public:
     StressField(const ElasticSolid<dim> &solid, const dealii::Vector<double> &U);
 
-    /// Components, principal values and von Mises' stress as a field of output.
+    /// The tensor, principal values and von Mises' stress as a field of output.
     void add_to(dealii::DataOut<dim> &data);
+
+    const std::vector<std::string> &field_names() const { return names; }
 
   private:
     Stress stress(const dealii::Tensor<2, dim> &gradient, const ElasticMaterial &material) const;
@@ -58,7 +60,9 @@ namespace taut
     const std::unique_ptr<dealii::FiniteElement<dim>> node_element;
     std::vector<unsigned int> node_of_displacement; ///< of each node, the first DoF of a cell there
     std::vector<std::vector<Stress>> stresses;      ///< of each cell and node
+    using Kind = dealii::DataComponentInterpretation::DataComponentInterpretation;
     std::vector<std::string> names;
+    std::vector<Kind> kinds;
     dealii::DoFHandler<dim> handler;
     dealii::Vector<double> values;
   };
@@ -76,11 +80,13 @@ namespace taut
         if (element.system_to_component_index(i).first == 0 &&
             node.distance(element.unit_support_point(i)) < same)
           node_of_displacement.push_back(i);
-    names = dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy", "stress_zz"}
-                     : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz",
-                                                "stress_xy", "stress_xz", "stress_yz"};
+    names.assign(dim * dim, "stress");
+    kinds.assign(dim * dim, Kind::component_is_part_of_tensor);
+    if (dim == 2)
+      names.emplace_back("stress_zz");
     names.insert(names.end(), {"principal_stress_1", "principal_stress_2", "principal_stress_3",
                                "von_mises_stress"});
+    kinds.resize(names.size(), Kind::component_is_scalar);
     find(U);
   }
 
@@ -160,9 +166,12 @@ namespace taut
   template <int dim>
   std::vector<double> ElasticSolid<dim>::StressField::components(const Stress &s) const
   {
-    std::vector<double> result =
-        dim == 2 ? std::vector<double>{s[0][0], s[1][1], s[0][1], s[2][2]}
-                 : std::vector<double>{s[0][0], s[1][1], s[2][2], s[0][1], s[0][2], s[1][2]};
+    std::vector<double> result;
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+        result.push_back(s[a][b]);
+    if (dim == 2)
+      result.push_back(s[2][2]);
     for (const double principal : dealii::eigenvalues(s))
       result.push_back(principal);
     result.push_back(von_mises(s));
@@ -189,7 +198,7 @@ namespace taut
       }
       ++of_cell;
     }
-    data.add_data_vector(handler, values, names);
+    data.add_data_vector(handler, values, names, kinds);
   }
 
   template <int dim>
@@ -207,6 +216,9 @@ namespace taut
     data.build_patches(mesh->mapping(), mesh->degree());
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
+    flags.physical_units = {{"displacement", "m"}};
+    for (const std::string &name : stress.field_names())
+      flags.physical_units[name] = "Pa";
     data.set_flags(flags);
     std::ostringstream file;
     data.write_vtu(file);

@@ -423,6 +423,7 @@ namespace taut
     data.build_patches(mapping, handler.get_fe().degree);
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
+    flags.physical_units["displacement"] = "m";
     data.set_flags(flags);
     std::ostringstream file;
     data.write_vtu(file);

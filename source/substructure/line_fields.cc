@@ -11,10 +11,17 @@
 namespace taut
 {
   void write_lines(const std::string &path, const std::vector<std::vector<LinePoint>> &lines,
-                   const std::vector<std::string> &further)
+                   const std::vector<LineField> &further)
   {
     std::vector<std::string> names(3, "displacement");
-    names.insert(names.end(), further.begin(), further.end());
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false; // the same bytes from run to run
+    flags.physical_units["displacement"] = "m";
+    for (const auto &[name, units] : further)
+    {
+      names.push_back(name);
+      flags.physical_units[name] = units;
+    }
     std::vector<dealii::DataOutBase::Patch<1, 3>> patches(lines.size());
     for (unsigned int e = 0; e < patches.size(); ++e)
     {
@@ -37,8 +44,6 @@ namespace taut
           patch.vertices[k / last] = dealii::Point<3>(place.x, place.y, place.z);
       }
     }
-    dealii::DataOutBase::VtkFlags flags;
-    flags.print_date_and_time = false; // the same bytes from run to run
     std::ostringstream file;
     dealii::DataOutBase::write_vtu(
         patches, names,

@@ -12,14 +12,20 @@ namespace taut
   /// A point of a line in a picture for ParaView.
   struct LinePoint
   {
-    Coordinates place, displacement; ///< displaced place [m]
+    Coordinates place, displacement; ///< place without the displacement [m]
     std::vector<double> values;      ///< of further fields, in the order of their names
   };
 
-  /// Writes lines, each of two points or more, with `displacement` and the fields @p names as a
+  /// A further field.
+  struct LineField
+  {
+    std::string name, units;
+  };
+
+  /// Writes lines, each of two points or more, with `displacement` and @p further fields as a
   /// .vtu file, the same bytes from run to run. Throws UserError if the file cannot be written.
   void write_lines(const std::string &path, const std::vector<std::vector<LinePoint>> &lines,
-                   const std::vector<std::string> &names);
+                   const std::vector<LineField> &further);
 } // namespace taut
 
 #endif

@@ -24,7 +24,7 @@ def check_line():
         others = [line for line in panel.get_lines() if "on contact" in line.get_label() and not line.get_label().endswith(wire)]
         expect(f"no contacts of another wire on {wire}", not others, others)
     figure = draw("envelope", path)
-    frames = [plot.read_vtu(file) for _, file in read_collection(str(path / "wires.pvd"))]
+    frames = [plot.read_vtu(file) for _, file in read_collection(str(path / "fields/wires.pvd"))]
     number = next(w for w, name in frames[0][3].items() if name == "contact 1")
     motion = np.array([u[wires[number], 1] for _, u, wires, _ in frames])
     highest, = named(figure.axes[1], "highest")
@@ -118,7 +118,7 @@ def check_film():
     path = run("string_on_stop")
     done = program(path, "--film", "gif", "--plots", "probes", "--format", "png")
     expect("a film", done.returncode == 0, done.stderr)
-    n_fields = len(read_collection(str(path / "wires.pvd")))
+    n_fields = len(read_collection(str(path / "fields/wires.pvd")))
     with Image.open(path / "figures" / "film.gif") as film:
         frames = []
         for i in range(film.n_frames):

@@ -62,12 +62,12 @@ for ranks in (2, 4):
     for name in ("probes.csv", "links.csv", "energy.csv", "largest.csv"):
         difference = largest_difference(folders[1] / name, folders[ranks] / name)
         expect(difference < 1e-9, f"{name}: {ranks} ranks differ by {difference}")
-    frames = sorted(path.name for path in folders[ranks].glob("*.vtu"))
-    expect(frames == sorted(path.name for path in folders[1].glob("*.vtu")), f"{ranks} ranks: fields {frames}")
+    frames = sorted(path.name for path in (folders[ranks] / "fields").glob("*.vtu"))
+    expect(frames == sorted(path.name for path in (folders[1] / "fields").glob("*.vtu")), f"{ranks} ranks: fields {frames}")
 
-frames = [node.get("file") for node in xml.parse(folders[1] / "body_plate.pvd").iter("DataSet")]
+frames = [node.get("file") for node in xml.parse(folders[1] / "fields/body_plate.pvd").iter("DataSet")]
 expect(frames == [f"body_plate_{i:05d}.vtu" for i in range(5)], f"frames of the plate: {frames}")
-root = xml.parse(folders[1] / frames[-1]).getroot()
+root = xml.parse(folders[1] / "fields" / frames[-1]).getroot()
 arrays = {node.get("Name") for node in root.iter("DataArray")}
 expect("displacement" in arrays, f"arrays of the plate: {arrays}")
 
@@ -81,9 +81,9 @@ checkpoints = ("--set", "Output/Folder=resumed", "--set", "Output/Checkpoint int
 for ranks in (1, 2):
     shutil.rmtree(arguments.build / "resumed", ignore_errors=True)
     run(*checkpoints, ranks=ranks)
-    before = {path.name: path.read_bytes() for path in (arguments.build / "resumed").iterdir()}
+    before = {path.name: path.read_bytes() for path in (arguments.build / "resumed").rglob("*") if path.is_file()}
     done = run(*checkpoints, "--resume", ranks=ranks)
-    after = {path.name: path.read_bytes() for path in (arguments.build / "resumed").iterdir()}
+    after = {path.name: path.read_bytes() for path in (arguments.build / "resumed").rglob("*") if path.is_file()}
     different = [name for name in before.keys() | after.keys() if before.get(name) != after.get(name)]
     expect(done.returncode == 0 and "Resumed after t = " in done.stdout and not different and "largest.csv" in after,
            f"resumed on {ranks} ranks: {different} {done.stdout} {done.stderr}")
@@ -92,7 +92,7 @@ for ranks in (1, 2):
 done = run("--set", "Output/Folder=plugin_1")
 expect(done.returncode == 1 and "holds the results of a run" in done.stderr, f"overwrites: {done.stderr}")
 done = run("--overwrite", "--set", "Output/Folder=plugin_1", "--set", "Output/Observers=", "--set", "Output/Field interval=0")
-left = sorted(path.name for path in folders[1].iterdir())
+left = sorted(path.name for path in folders[1].rglob("*") if path.is_file())
 expect(not any(name in left for name in ("energy.csv", "largest.csv", "body_plate.pvd", "body_plate_00000.vtu")),
        f"files of the run before are left: {left}")
 

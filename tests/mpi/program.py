@@ -55,7 +55,7 @@ def same_text(a, b):
 
 def file_names(folder):
     """Those of the parts of a body as those of the whole."""
-    return sorted({re.sub(r"_part\d+", "", path.name) for path in folder.iterdir()})
+    return sorted({re.sub(r"_part\d+", "", path.name) for path in folder.rglob("*")})
 
 
 def check_scene(scene, folder):

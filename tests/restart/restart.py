@@ -112,7 +112,8 @@ def without_wall_times(table):
 
 def contents(folder):
     """Files by name. Wall times are not the same from run to run, nor are checkpoints that have them."""
-    files = {file.name: file for file in sorted((folder / "results").iterdir())}
+    files = {str(file.relative_to(folder / "results")): file for file in sorted((folder / "results").rglob("*"))
+             if file.is_file()}
     return {name: without_wall_times(file) if name == "cost.csv" else b"" if "cost.csv" in files and "checkpoint" in name
             else file.read_bytes() for name, file in files.items()}
 
@@ -144,7 +145,8 @@ def check_killed(folder, n, ranks, scenes, rng):
             n_kills += 1
             options = [*scene, "--resume"]
         if (own / "results").exists():  # else killed before it began
-            for name in ("checkpoint.some_machine.1.tmp", "wires_00001.vtu.some.machine.1.tmp"):
+            (own / "results" / "fields").mkdir(exist_ok=True)
+            for name in ("checkpoint.some_machine.1.tmp", "fields/wires_00001.vtu.some.machine.1.tmp"):
                 (own / "results" / name).write_bytes(b"what a killed run was about to rename")
         result = run(own, [*scene, "--resume"], ranks)
         what = f"{scene[0]} on {ranks} ranks, run {i}"

@@ -18,8 +18,10 @@ namespace
   std::map<std::string, std::string> files_in(const std::string &folder)
   {
     std::map<std::string, std::string> files;
-    for (const auto &entry : std::filesystem::directory_iterator(folder))
-      files[entry.path().filename()] = verification::file_text(entry.path());
+    for (const auto &entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.is_regular_file())
+        files[std::filesystem::relative(entry.path(), folder)] =
+            verification::file_text(entry.path());
     return files;
   }
 
@@ -90,7 +92,7 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
   EXPECT_EQ(whole.uplift, 0.);
   const auto files = files_in(folder / "whole"), others = files_in(folder / "parts");
   for (const char *name : {"links.csv", "probes.csv", "certificate.csv", "energy.csv",
-                           "body_cable.pvd", "body_cable_00000.vtu", "checkpoint"})
+                           "fields/body_cable.pvd", "fields/body_cable_00000.vtu", "checkpoint"})
     EXPECT_EQ(files.count(name), 1u) << name;
   for (const auto &[name, content] : files)
   {

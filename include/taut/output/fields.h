@@ -13,19 +13,21 @@
 namespace taut
 {
   /**
-   * Writes the motion for ParaView. wires_NNNNN.vtu has the wires as lines, cut between parts.
-   * Their data are displacements from the undeformed line as vectors to warp by, name, number and
-   * part. links_NNNNN.vtu has each link as a line between its ends, or as a point if one end is the
-   * ground. Its data are displacement, force, gap, whether the link is open, and its name; a
-   * sliding contact is in its present place. wires.pvd and links.pvd join the files in time. A
-   * plugin's body with a picture has files `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written
-   * by its owner.
+   * Writes the motion for ParaView into the folder `fields` of the results. Points are where the
+   * undeformed bodies are, those of cables where they are at rest; `displacement` moves all to
+   * where they belong together. wires_NNNNN.vtu has the wires as lines, cut between parts.
+   * Their data are displacements, name, number and part. links_NNNNN.vtu has each link as a line
+   * between its ends, or as a point if one end is the ground. Its data are displacement, force,
+   * gap, whether the link is open, and its name; a sliding contact is in its present place.
+   * wires.pvd and links.pvd join the files in time. A plugin's body with a picture has files
+   * `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written by its owner.
    */
   class Fields : public Observer
   {
   public:
-    /// @p interval: least time between two files [s]; @p subdivisions: lines in each element.
-    Fields(const std::string &folder, const Scene &scene, const SceneBodies &structure,
+    /// @p results: folder of the run; @p interval: least time between two files [s]; @p
+    /// subdivisions: lines in each element.
+    Fields(const std::string &results, const Scene &scene, const SceneBodies &structure,
            double interval, unsigned int subdivisions);
 
     /// Called by all ranks together; the root writes. Throws UserError if it cannot write.

@@ -28,8 +28,10 @@ namespace taut
     /// @p cells: the points of each cell. One point is a vertex, more points are a line.
     VtuFile(std::size_t n_points, const std::vector<std::vector<std::int32_t>> &cells);
 
-    /// Adds an array of zeros with @p n_components a point or cell, and returns its number.
-    std::size_t add(Location location, const std::string &name, unsigned int n_components);
+    /// Adds an array of zeros with @p n_components a point or cell, and returns its number. Three
+    /// components are x, y, z; @p units is for readers.
+    std::size_t add(Location location, const std::string &name, unsigned int n_components,
+                    const std::string &units);
 
     /// Adds a constant array.
     void add(Location location, const std::string &name, const std::vector<std::int32_t> &values);
@@ -50,11 +52,16 @@ namespace taut
       std::string section, name, type;
       unsigned int n_components;
       std::string bytes; ///< raw; for strings, the codes of their characters as text
+      std::string units = "";
     };
 
     std::size_t n_points, n_cells;
     std::vector<Array> arrays;
   };
+
+  /// The folder of the fields in a folder of results, with '/' at its end; made if it is missing.
+  /// Throws UserError if it cannot be made.
+  std::string make_fields_folder(const std::string &results);
 
   /// A ParaView collection: files with their times. It is complete after each call, so that it can
   /// be opened after a run was killed.
