@@ -15,6 +15,8 @@ try:
     import matplotlib  # noqa: F401
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkDataObject
+    from vtkmodules.vtkFiltersGeneral import vtkWarpVector
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError as missing:
     print(f"skipped: {missing}; install python3-matplotlib and python3-vtk9")
@@ -212,6 +214,67 @@ def check_pictures(folder, names, script):
                 errors.append(f"{path} is missing or empty")
 
 
+def warped(path):
+    """Places of the points of a field under ParaView's filter, and the lines between them."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    warp = vtkWarpVector()
+    warp.SetInputConnection(reader.GetOutputPort())
+    warp.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "displacement")
+    warp.Update()
+    grid = warp.GetOutput()
+    places = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    pairs = []
+    for i in range(grid.GetNumberOfCells()):
+        cell = grid.GetCell(i)
+        edges = [cell.GetEdge(e) for e in range(cell.GetNumberOfEdges())] or [cell]
+        for edge in edges:
+            ids = [edge.GetPointId(k) for k in range(edge.GetNumberOfPoints())]
+            pairs += zip(ids, ids[1:])
+    return places, np.array(pairs, dtype=int).reshape(-1, 2)
+
+
+def distance(at, lines):
+    """Of a place from lines [n, 2, 3]."""
+    along = lines[:, 1] - lines[:, 0]
+    part = np.einsum("ij,ij->i", at - lines[:, 0], along) / np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
+    return np.linalg.norm(lines[:, 0] + np.clip(part, 0, 1)[:, None] * along - at, axis=1).min()
+
+
+def check_together(name, script, *settings):
+    """One warp filter moves all fields to where they belong together: links end on the wires and bodies that they hold."""
+    folder = run(name, *settings)
+    results = load_plot(script).Results(str(folder))
+    drawn = {results.name_of(path.stem[5:]): collection(path)[-1][1] for path in (folder / "fields").glob("body_*.pvd")}
+    solids = [body for body in drawn if results.entries[f"Body {body}/Type"] == "solid"]
+    lines = {body: (lambda places, pairs: places[pairs])(*warped(path)) for body, path in drawn.items()}
+    if (folder / "fields/wires.pvd").exists():
+        path = collection(folder / "fields/wires.pvd")[-1][1]
+        places, _ = warped(path)
+        grid = Grid(path)
+        for cell, wire in zip(grid.cells, grid.names):
+            lines[wire] = np.concatenate([lines.get(wire, np.empty((0, 2, 3))), np.stack([places[cell[:-1]], places[cell[1:]]], axis=1)])
+    path = collection(folder / "fields/links.pvd")[-1][1]
+    ends, _ = warped(path)
+    extent = max(np.ptp(np.concatenate([line.reshape(-1, 3) for line in lines.values()]), axis=0))
+    n_compared, moved = 0, np.abs(Grid(path).fields["displacement"]).max()
+    grid = Grid(path)
+    for cell, link in zip(grid.cells, grid.names):
+        section = next(s for s in (f"Network/Link {link}", f"Network/Link {link.rpartition(' ')[0]}") if f"{s}/From" in results.entries)
+        on = [results.entries[f"{section}/{end}"].partition("@")[0].strip() for end in ("From", "To")]
+        for point, body in zip(cell, [body for body in on if body != "ground"] if len(cell) < 2 else on):
+            if body in lines:
+                n_compared += 1
+                off = distance(ends[point], lines[body])
+                # A place inside a solid, or a hole, is between its edges.
+                between = np.linalg.norm(lines[body][:, 1] - lines[body][:, 0], axis=1).max() if body in solids else 0
+                if not off <= max(2e-3 * extent, between):
+                    errors.append(f"{name}: link '{link}' ends {off:.3g} m beside '{body}'")
+    print(f"figure | {name}: ends of links on what they hold | {n_compared} {moved:.3g} m")
+    if n_compared == 0:
+        errors.append(f"{name}: no end of a link is compared")
+
+
 def check_plot_reads(folder, script):
     """taut-plot reads the same of a cut wire as VTK does."""
     path = folder / "fields/wires_00000.vtu"
@@ -366,6 +429,11 @@ with open(results / "start.csv", newline="", encoding="utf-8") as start_file:
 pull = 50 * 10**2 / (2 * 0.6 * 8)
 compare("guyed mast", start, [[pull, -pull / 1e5], [0, pull * (1 / 1e5 + 2 * 0.8**2 * 8 / 1e7)]], 0.01)
 check_pictures(results, ["static_links"], plot_script)
+
+for scene, end in (("bar_on_two_cables", 1), ("bracket_and_cables", 1), ("cable_in_wind", 0), ("line_of_cables", 0.2),
+                   ("line_of_cables_with_weights", 0.1), ("line_with_droppers", 0.5), ("net_of_cables", 0), ("pendulum_cable", 1),
+                   ("snap_load", 0.08), ("swinging_load_on_guys", 0.5)):
+    check_together(scene, plot_script, "Output/Field interval=0.1", "Time/Check steps=no", f"Time/End={end}")
 
 # The pictures of a solid, and the pressure that is drawn.
 results = run("hertz_cylinder")
