@@ -58,6 +58,33 @@ namespace taut
       return geometry.slave.dim == 1 ? add_scaled(point, 1., displacement) : point;
     }
 
+    /// @p first: row of the first node.
+    SurfaceForce sum_of(const ContactGeometry &geometry, const State &state,
+                        const std::size_t first, const std::vector<Coordinates> &displacements)
+    {
+      SurfaceForce result;
+      Coordinates weighted;
+      const std::vector<SurfaceConstraint> &all = geometry.constraints;
+      result.n_nodes = all.size();
+      result.is_line = geometry.slave.dim == 1;
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        const double N = state.multiplier[first + i];
+        result.gap = std::min(result.gap, state.distance[first + i]);
+        if (!(N > 0.))
+          continue;
+        ++result.n_closed;
+        result.force = add_scaled(result.force, -N, all[i].normal);
+        weighted = add_scaled(weighted, N, place_of(geometry, i, displacements[i]));
+        result.size += N;
+        result.area += all[i].area;
+        result.largest = std::max(result.largest, N / all[i].area);
+      }
+      if (result.size > 0.)
+        result.point = add_scaled({}, 1. / result.size, weighted);
+      return result;
+    }
+
     void append(const Coordinates &p, std::vector<float> &values)
     {
       for (unsigned int d = 0; d < 3; ++d)
@@ -120,7 +147,8 @@ namespace taut
       contact.picture = std::make_unique<VtuFile>(all.size(), cells);
       contact.displacement =
           contact.picture->add(VtuFile::Location::points, "displacement", 3, "m");
-      contact.pressure = contact.picture->add(VtuFile::Location::points, "pressure", 1, is_line ? "N/m" : "Pa");
+      contact.pressure =
+          contact.picture->add(VtuFile::Location::points, "pressure", 1, is_line ? "N/m" : "Pa");
       contact.gap = contact.picture->add(VtuFile::Location::points, "gap", 1, "m");
       contact.picture->set(contact.picture->add(VtuFile::Location::points, "normal", 3, "1"),
                            normals);
@@ -156,39 +184,33 @@ namespace taut
       while (step.constraints[first].contact != c)
         ++first;
       if (line)
-        write_line(contacts[c], state, first, displacements[c]);
+      {
+        contacts[c].last = sum_of(contacts[c].geometry, state, first, displacements[c]);
+        write_line(contacts[c], state.time);
+      }
       if (picture)
         write_picture(contacts[c], state, first, displacements[c]);
     }
   }
 
-  void ContactTables::write_line(Contact &contact, const State &state, const std::size_t first,
-                                 const std::vector<Coordinates> &displacements)
+  void ContactTables::write_line(Contact &contact, const double time)
   {
-    Coordinates force, weighted;
-    double area = 0., sum = 0., pressure = 0., gap = std::numeric_limits<double>::infinity();
-    std::size_t n_closed = 0;
-    const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-      const double N = state.multiplier[first + i];
-      gap = std::min(gap, state.distance[first + i]);
-      if (!(N > 0.))
-        continue;
-      ++n_closed;
-      force = add_scaled(force, -N, all[i].normal);
-      weighted = add_scaled(weighted, N, place_of(contact.geometry, i, displacements[i]));
-      sum += N;
-      area += all[i].area;
-      pressure = std::max(pressure, N / all[i].area);
-    }
-    contact.table->begin_line(state.time);
+    const SurfaceForce &sum = contact.last;
+    contact.table->begin_line(time);
     for (int d = 0; d < 3; ++d)
-      *contact.table << force[d];
+      *contact.table << sum.force[d];
     for (int d = 0; d < 3; ++d)
-      *contact.table << (sum > 0. ? weighted[d] / sum : 0.);
-    *contact.table << area << pressure << gap << static_cast<double>(n_closed);
+      *contact.table << sum.point[d];
+    *contact.table << sum.area << sum.largest << sum.gap << static_cast<double>(sum.n_closed);
     contact.table->end_line();
+  }
+
+  std::vector<SurfaceForce> ContactTables::last() const
+  {
+    std::vector<SurfaceForce> result;
+    for (const Contact &contact : contacts)
+      result.push_back(contact.last);
+    return result;
   }
 
   void ContactTables::write_picture(Contact &contact, const State &state, const std::size_t first,

@@ -7,12 +7,24 @@
 #include <taut/output/table_file.h>
 #include <taut/output/vtu_file.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace taut
 {
+  /// What a contact of surfaces does as a whole.
+  struct SurfaceForce
+  {
+    Coordinates force, point;       ///< on the slave; where it acts [N, m]
+    double size = 0.;               ///< sum of the sizes of its parts [N]
+    double area = 0., largest = 0.; ///< where it is closed; pressure there [m^2, Pa or m, N/m]
+    double gap = std::numeric_limits<double>::infinity(); ///< the least [m]
+    std::size_t n_closed = 0, n_nodes = 0;
+    bool is_line = false; ///< of a cable
+  };
+
   /**
    * Writes the contacts of surfaces. `contact_<name>.csv` has a line each Output/Interval: the
    * resultant force on the slave and its place (displaced on cables, otherwise undeformed), contact
@@ -34,6 +46,9 @@ namespace taut
     void resume(InputArchive &archive, const StepView &step) override;
     void finish() override;
 
+    /// Each contact in the last line of its table, in the order of the scene; on the root.
+    std::vector<SurfaceForce> last() const;
+
   private:
     struct Contact
     {
@@ -43,9 +58,9 @@ namespace taut
       std::unique_ptr<VtuFile> picture;
       std::unique_ptr<PvdFile> collection;
       std::size_t displacement = 0, pressure = 0, gap = 0;
+      SurfaceForce last;
     };
-    void write_line(Contact &contact, const State &state, std::size_t first,
-                    const std::vector<Coordinates> &displacements);
+    void write_line(Contact &contact, double time);
     void write_picture(Contact &contact, const State &state, std::size_t first,
                        const std::vector<Coordinates> &displacements);
 

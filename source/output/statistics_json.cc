@@ -3,22 +3,21 @@
 // also the range in this unit and whether the value is inside. Keys are identifiers, except for
 // names of items, which are in the order of the scene.
 #include "base/write_file.h"
+#include "output/json_values.h"
 #include <taut/base/version.h>
-#include <taut/output/statistics.h>
 #include <taut/output/table_file.h>
 
 #include <boost/algorithm/string/replace.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace taut
 {
+  using json = nlohmann::ordered_json;
+
   namespace
   {
-    using json = nlohmann::ordered_json;
-
     /// "mean_plus_3_standard_deviations" for "mean + 3 standard deviations".
     std::string identifier(std::string name)
     {
@@ -28,16 +27,35 @@ namespace taut
       return name;
     }
 
-    json quantity(const double value, const std::string &unit)
-    {
-      return {{"value", value}, {"unit", unit}};
-    }
-
-    json time(const double value)
-    {
-      return quantity(std::stod(time_text(value)), "s");
-    }
   } // namespace
+
+  json json_quantity(const double value, const std::string &unit)
+  {
+    return {{"value", value + 0.}, {"unit", unit}}; // no -0
+  }
+
+  json json_time(const double value)
+  {
+    return json_quantity(std::stod(time_text(value)), "s");
+  }
+
+  void add_observers(const std::vector<NamedQuantity> &all, json &root)
+  {
+    for (const NamedQuantity &q : all)
+      root["observers"][q.item][q.quantity] = json_quantity(q.value, q.unit);
+  }
+
+  void add_warnings(const std::vector<Warning> &all, json &root)
+  {
+    json &warnings = root["warnings"] = json::array();
+    for (const Warning &warning : all)
+      warnings.push_back({{"kind", warning.kind},
+                          {"message", warning.message},
+                          {"value", warning.value},
+                          {"limit", warning.limit},
+                          {"unit", warning.unit},
+                          {"time", json_time(warning.time)}});
+  }
 
   class Statistics::Json
   {
@@ -74,7 +92,7 @@ namespace taut
         if (std::isnan(raw ? figure.raw : figure.value))
           continue;
         json &entry = result[identifier(figure.name)] =
-            quantity(raw ? figure.raw : figure.shown(), figure.unit_shown());
+            json_quantity(raw ? figure.raw : figure.shown(), figure.unit_shown());
         if (figure.expected.empty() || !judged || raw)
           continue;
         const double low = figure.expected[0], high = figure.expected[1];
@@ -109,14 +127,14 @@ namespace taut
     {
       const auto residual = [](const double value, const double at)
       {
-        json entry = quantity(value, "1");
-        entry["time"] = time(at);
+        json entry = json_quantity(value, "1");
+        entry["time"] = json_time(at);
         return entry;
       };
       json entry = {
           {"complementarity", residual(all.worst.complementarity, all.worst_complementarity_time)},
           {"balance", residual(all.worst.balance, all.worst_balance_time)},
-          {"drift", quantity(all.worst.drift, "m or rad")},
+          {"drift", json_quantity(all.worst.drift, "m or rad")},
           {"steps", all.n_steps},
           {"iterations_per_step", all.n_steps > 0 ? double(all.n_iterations) / all.n_steps : 0.},
           {"fallbacks", all.n_fallbacks}};
@@ -125,13 +143,13 @@ namespace taut
       const ContactMeasures::Summary s = all.measures->summary();
       const auto measure = [&](const double value, const std::string &unit, const std::size_t row)
       {
-        json entry = quantity(value, unit);
+        json entry = json_quantity(value, unit);
         entry["largest_at"] = (*all.rows)[row].name;
         return entry;
       };
       entry["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);
       entry["relative_contact_energy"] = measure(s.relative_energy, "1", s.energy_constraint);
-      entry["energy_of_large_motions"] = quantity(s.motion_energy, "J");
+      entry["energy_of_large_motions"] = json_quantity(s.motion_energy, "J");
       entry["contact_gap"] = measure(s.gap, "m or rad", s.gap_constraint);
       entry["peak_over_mean"] = measure(s.resolution, "1", s.resolution_row);
       return entry;
@@ -142,9 +160,10 @@ namespace taut
                          const std::vector<NamedQuantity> &others) const
   {
     json root = {
-        {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
-        {"scheme", run.scheme},      {"step", time(run.step)},     {"end", time(run.end)},
-        {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
+        {"schema", statistics_schema}, {"scene", run.scene},        {"generator", run.generator},
+        {"version", version()},        {"scheme", run.scheme},      {"step", json_time(run.step)},
+        {"end", json_time(run.end)},   {"partial", run.is_partial}, {"until", until()},
+        {"verdict", verdict().text()}};
     for (const char *const section :
          {"line_constants", "sliding_contacts", "sums", "probes", "links", "supports", "spans"})
       root[section] = json::object();
@@ -155,12 +174,12 @@ namespace taut
     for (const LineConstants &line : lines)
       root["line_constants"][line.contact]["wire"] = line.wire;
     for (const SupportFigures::Figures &f : supports.of_supports())
-      root["supports"][f.name] = {{"wire", f.wire}, {"position", quantity(f.position, "m")}};
+      root["supports"][f.name] = {{"wire", f.wire}, {"position", json_quantity(f.position, "m")}};
     for (const SpannedWire &wire : spanned)
       for (const Span &span : wire.spans)
         root["spans"][span.name] = {{"wire", wire.name},
-                                    {"from", quantity(span.from, "m")},
-                                    {"to", quantity(span.to, "m")}};
+                                    {"from", json_quantity(span.from, "m")},
+                                    {"to", json_quantity(span.to, "m")}};
     for (const Item &item : items())
       if (!item.is_force) // which is above, with its ranges
       {
@@ -169,17 +188,9 @@ namespace taut
           entry = &(*entry)[key];
         entry->update(Json::of(item.figures, true));
       }
-    for (const NamedQuantity &q : others)
-      root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);
+    add_observers(others, root);
     root["certificate"] = Json::of_certificates(*this);
-    json &warnings = root["warnings"] = json::array();
-    for (const Warning &warning : run.warnings)
-      warnings.push_back({{"kind", warning.kind},
-                          {"message", warning.message},
-                          {"value", warning.value},
-                          {"limit", warning.limit},
-                          {"unit", warning.unit},
-                          {"time", time(warning.time)}});
+    add_warnings(run.warnings, root);
     write_file(path, root.dump(2) + '\n');
   }
 } // namespace taut

@@ -13,6 +13,7 @@
 #include "output/contact_tables.h"
 #include "output/jump_watch.h"
 #include "output/model_limits.h"
+#include "output/rest_figures.h"
 #include "output/scene_report.h"
 #include "partition/make_partition.h"
 #include "time/excitations.h"
@@ -268,8 +269,18 @@ namespace taut
       observed->observe(*guest);
     for (const std::string &name : output.observers)
       observed->observe(parameters.make_observer(name));
+    const ContactTables *contacts = nullptr;
     if (output.writes && !model.contacts.empty())
-      observed->observe(std::make_unique<ContactTables>(model, output.field_interval));
+    {
+      auto tables = std::make_unique<ContactTables>(model, output.field_interval);
+      contacts = tables.get();
+      observed->observe(std::move(tables));
+    }
+    if (!has_time())
+    {
+      at_rest = std::make_unique<RestFigures>(model, contacts);
+      observed->observe(*at_rest);
+    }
     observed->observe(std::make_unique<Fields>(output.folder, model, bodies, output.field_interval,
                                                output.subdivisions));
     observed->observe(std::make_unique<SlackMonitor>());
@@ -323,10 +334,14 @@ namespace taut
     if (is_partial)
       log << "Partial results: until t = " << figures.until() << " s of " << parameters.end_time
           << " s\n";
-    if (processes.is_root() && parameters.output.writes && has_time())
+    const std::string file = parameters.output.folder + "/statistics.json";
+    if (!processes.is_root() || !parameters.output.writes)
+      return;
+    if (!has_time())
+      at_rest->write(file, description(is_partial), observed_quantities());
+    else
     {
-      figures.write(parameters.output.folder + "/statistics.json", description(is_partial),
-                    observed_quantities());
+      figures.write(file, description(is_partial), observed_quantities());
       figures.write_tables(parameters.output.folder);
     }
   }

@@ -427,6 +427,9 @@ results = run("guyed_mast", "Time/End=0")
 with open(results / "start.csv", newline="", encoding="utf-8") as start_file:
     start = [[float(line[key]) for key in ("force [N or N m]", "gap [m or rad]")] for line in csv.DictReader(start_file)]
 pull = 50 * 10**2 / (2 * 0.6 * 8)
+links = json.loads((results / "statistics.json").read_text())["links"]
+compare("guyed mast in statistics.json", [[links[name][key]["value"] for key in ("force", "gap")] for name in ("left guy", "right guy")],
+        start, 0)
 compare("guyed mast", start, [[pull, -pull / 1e5], [0, pull * (1 / 1e5 + 2 * 0.8**2 * 8 / 1e7)]], 0.01)
 check_pictures(results, ["static_links"], plot_script)
 
@@ -447,6 +450,9 @@ compare("Hertz: largest pressure", [contact["pressure"].max()], [said], said)
 # Blocks under 1 MPa: the stresses of a uniform state, by hand, at every node of both of them.
 for state, across in (("strain", -3e5), ("stress", 0)):
     results = run("block_on_block", f"Body upper/Plane state={state}", f"Body lower/Plane state={state}")
+    said = json.loads((results / "statistics.json").read_text())["contacts"]["joint"]
+    compare("force of a contact at rest", said["force"]["value"], (0, 1e6, 0), 1e6)
+    compare("contact at rest", [said[key]["value"] for key in ("area", "largest_pressure", "closed")], (1, 1e6, said["nodes"]["value"]), 1e6)
     principal = sorted((0, across, -1e6), reverse=True)
     expected = {"stress": (0, 0, 0, 0, -1e6, 0, 0, 0, 0), "stress_zz": across,
                 **{f"principal_stress_{i + 1}": value for i, value in enumerate(principal)},

@@ -18,6 +18,7 @@ namespace taut
 {
   class AccuracyReport;
   class ModelLimits;
+  class RestFigures;
   struct ScenePlaces;
   struct SharedParts;
   class StepAccuracy;
@@ -130,7 +131,8 @@ namespace taut
     std::map<std::string, double> forces_at_rest; ///< of the links [N, N m]
     std::unique_ptr<AccuracyReport> accuracy;
     std::unique_ptr<ModelLimits> limits;
-    std::vector<NamedQuantity> measured; ///< by the observers, at the end
+    std::unique_ptr<RestFigures> at_rest; ///< of a run without time
+    std::vector<NamedQuantity> measured;  ///< by the observers, at the end
   };
 } // namespace taut
 
