@@ -133,6 +133,12 @@ subsection Catenary
     set Positions = 5
     set Mass      = 1
   end
+  subsection Pantograph pantograph
+    set Masses       = 1
+    set Stiffnesses  = 1
+    set Dampings     = 1
+    set Static force = 1
+  end
   subsection Contact wire
     set Mass per length = 1
     set Tension         = 1e4
@@ -150,6 +156,8 @@ subsection Output
 end
 """
 
+REQUIRED = "required"
+OWN = ("ITEM", "mass", "solid", "cable", "rigid body")  # names of items
 GROUPS = {"Time": "Time and integration", "Partition": "Cutting into substructures", "Solver": "Solvers",
           "Output": "Output", "Statistics": "Statistics", "Study": "Error against cost",
           "Sweep": "Many runs", "Elasticity": "Elasticity of a line", "Catenary": "Generator `catenary`", "Network": "Generator `network`",
@@ -184,6 +192,24 @@ def entries(text):
     return result
 
 
+def required(folder, text):
+    """{(path of the section, name)}: entries of this smallest file without which the program refuses it."""
+    result, path, lines = set(), [], text.splitlines()
+    for i, line in enumerate(lines):
+        words = line.split()
+        if words[:1] == ["subsection"]:
+            path.append(" ".join(words[1:]))
+        elif words == ["end"]:
+            path.pop()
+        # Lists of names decide which sections there are.
+        elif words[:1] == ["set"] and path and path[0] not in ("Time", "Output") and not (len(path) == 1 and words[-1] in OWN):
+            pathlib.Path(folder, "without.prm").write_text("\n".join(lines[:i] + lines[i + 1:]))
+            done = subprocess.run([arguments.program, "without.prm", "--check"], cwd=folder, capture_output=True, check=False)
+            if done.returncode != 0:
+                result.add((tuple(path), line.strip()[4:].split("=")[0].strip()))
+    return result
+
+
 def tidy(path):
     """Names of items are the reader's own."""
     named = ("Wire", "Support", "Tension length", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Parameter", "Quantity",
@@ -200,7 +226,7 @@ def table(rows):
     lines = ["| entry | default | meaning |", "|---|---|---|"]
     for name, value, text in rows:
         text = text.replace("|", "\\|").replace("<", "&lt;")
-        value = value and f"`{value}`"
+        value = f"`{value}`" if value not in ("", REQUIRED) else value
         lines.append(f"| {name} | {value} | {text} |")
     return lines
 
@@ -217,6 +243,7 @@ with tempfile.TemporaryDirectory() as folder:
     pathlib.Path(folder, "bodies.prm").write_text(BODIES)
     run(folder, "bodies.prm")
     bodies = entries(pathlib.Path(folder, "run_of_bodies", "used.prm").read_text())
+    needed = {entry for text in (NETWORK, LINE, BODIES) for entry in required(folder, text)}
 
 sections = {}
 for source in (line, parts, net, bodies):
@@ -226,14 +253,14 @@ for source in (line, parts, net, bodies):
             value = "catenary"
         rows = sections.setdefault(tidy(path), [])
         if name not in [row[0] for row in rows]:
-            own = ("ITEM", "mass", "solid", "cable", "rigid body")
-            rows.append((name, "" if value in own else value, text))
+            rows.append((name, REQUIRED if (path, name) in needed else "" if value in OWN else value, text))
 
 HEAD = """# Parameter reference
 
 Every entry of a parameter file, as the program describes it. This page is generated: after a change of an entry run
 `cmake --build build --target update_parameter_reference`.
 
+An entry whose default is "required" has to be given where its section is used, or one that its meaning names in its place.
 `taut` without a file writes these entries for a railway line, `used.prm` in a results folder those of its run. Names of
 items, `<name>` below, are yours: list them in the entry that says so, then give each its section. Units stand in
 brackets; a formula knows `pi`, `t` [s], on a wire `s` [m], and in sections `Body` and `Contact` `x`, `y`, `z` [m]. Types of

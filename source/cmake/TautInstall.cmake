@@ -33,3 +33,15 @@ install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 # Where the links of README.md find it.
 install(DIRECTORY tests/install DESTINATION ${CMAKE_INSTALL_DOCDIR}/tests PATTERN "*.cmake" EXCLUDE)
+
+# cpack -G DEB: a package of all this for the distribution that it is built on.
+set(CPACK_PACKAGE_VENDOR "Taut")
+set(CPACK_PACKAGE_CONTACT "Taut <taut@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES TRUE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS TRUE)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libdeal.ii-dev, python3-matplotlib")
+include(CPack)

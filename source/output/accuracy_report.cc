@@ -42,7 +42,8 @@ namespace taut
   std::vector<Warning> AccuracyReport::warnings() const
   {
     std::vector<Warning> result = measures.warnings();
-    result.insert(result.end(), of_steps.begin(), of_steps.end());
+    if (!is_confirmed())
+      result.insert(result.end(), of_steps.begin(), of_steps.end());
     for (const Warning &warning : accuracy ? accuracy->warnings() : std::vector<Warning>())
       result.push_back(warning);
     return result;
@@ -57,6 +58,8 @@ namespace taut
       log << accuracy->report();
     else if (!reason.empty())
       log << "Steps: not checked, as " << reason << '\n';
+    if (is_confirmed())
+      return;
     for (const Warning &warning : of_steps)
       log << "  Warning: " << warning.message << '\n';
   }
@@ -160,6 +163,12 @@ namespace taut
            most_work * (has_longer_steps(run) ? ratio_of_steps : 1. / ratio_of_steps);
   }
 
+  bool StepAccuracy::sees_more(const RunInSteps &run)
+  {
+    const StepperOptions &options = run.motion.settings();
+    return !options.steps.adaptive() && options.step <= ratio_of_steps * run.seeing_step;
+  }
+
   /// Whether a run with steps that are so many times as long is affordable.
   bool StepAccuracy::affords(const double about) const
   {
@@ -226,7 +235,7 @@ namespace taut
     const bool affords_shorter = affords(1. / ratio_of_steps);
     std::optional<MotionDifference> coarse;
     // A looser tolerance says less than a tighter one.
-    if (has_longer_steps(run) && affords(ratio_of_steps) &&
+    if (sees_all() && has_longer_steps(run) && affords(ratio_of_steps) &&
         !(affords_shorter && run.motion.settings().steps.adaptive()))
       coarse = compare(ratio_of_steps, stop);
     if (coarse && (coarse->over_bounds() <= agrees || !affords_shorter))

@@ -7,7 +7,9 @@
 #include <taut/output/observer.h>
 #include <taut/time/motion.h>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +25,9 @@ namespace taut
 
     bool at_any_cost = false;     ///< allows other runs at any cost
     std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
+
+    /// The longest step that sees all of the scene, if the run does not [s].
+    double seeing_step = std::numeric_limits<double>::infinity();
   };
 
   /**
@@ -34,8 +39,9 @@ namespace taut
    * difference. Otherwise the other run has a step that is shorter by this factor, and near the
    * bounds by its square (L. F. Richardson's extrapolation, 1911, with an order from one to two).
    * Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step. If shorter steps
-   * cost too much, the longer steps, or a looser tolerance, give a rough error. What a run costs is
-   * counted from the run itself: its steps, repetitions and iterations.
+   * cost too much, the longer steps, or a looser tolerance, give a rough error. A run that does not
+   * see all of the scene is compared with shorter steps alone, which have to see it. What a run
+   * costs is counted from the run itself: its steps, repetitions and iterations.
    */
   class StepAccuracy
   {
@@ -44,6 +50,12 @@ namespace taut
 
     /// Whether there is another run that takes less than about half a second.
     static bool is_affordable(const RunInSteps &run);
+
+    /// Whether other steps see what the run does not.
+    static bool sees_more(const RunInSteps &run);
+
+    /// Whether steps that see all of the scene gave the same motion.
+    bool is_confirmed() const { return found && !sees_all() && !too_long; }
 
     /// Records an accepted step of the run itself.
     void record(const State &state, const StepReport &report, const Residuals &residuals)
@@ -71,6 +83,7 @@ namespace taut
 
   private:
     bool affords(double about) const;
+    bool sees_all() const { return !std::isfinite(run.seeing_step); }
     std::optional<MotionDifference> compare(double about, const std::function<bool()> &stop);
     void extrapolate(MotionDifference coarse);
     double shortened(double over_bounds) const;
@@ -93,7 +106,8 @@ namespace taut
   {
   public:
     /// @p measures are kept by reference. Without @p accuracy steps are not checked, for a reason
-    /// in words. @p of_steps are warnings about steps that are known before the run.
+    /// in words. @p of_steps are warnings about steps that are known before the run; they go if
+    /// steps that see all of the scene give the same motion.
     AccuracyReport(const ContactMeasures &measures, std::unique_ptr<StepAccuracy> accuracy,
                    std::string reason, std::vector<Warning> of_steps)
         : measures(measures), accuracy(std::move(accuracy)), reason(std::move(reason)),
@@ -115,6 +129,8 @@ namespace taut
     void report(std::ostream &log, bool failed) const override;
 
   private:
+    bool is_confirmed() const { return accuracy && accuracy->is_confirmed(); }
+
     const ContactMeasures &measures;
     const std::unique_ptr<StepAccuracy> accuracy;
     const std::string reason;

@@ -27,6 +27,12 @@ namespace taut
 
     /// Writes the remaining steps. Throws UserError if the disk is full.
     void finish() override;
+    void report(std::ostream &log, const bool failed) const override
+    {
+      if (!failed)
+        StepCosts::print(before, log);
+    }
+
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
@@ -114,10 +120,9 @@ namespace taut
 
   namespace
   {
-    const Register<Observer, CostTable>
-        register_cost_table("cost",
-                            "cost.csv: wall time of each part of a step, Newton iterations and "
-                            "active-set iterations, means of the steps since the line before, as "
-                            "often as Interval says");
+    const Register<Observer, CostTable> register_cost_table(
+        "cost", "cost.csv: wall time of each part of a step, Newton iterations and "
+                "active-set iterations, means of the steps since the line before, as "
+                "often as Interval says; and where the time of the run goes, in the log");
   }
 } // namespace taut

@@ -92,11 +92,11 @@ namespace taut
         if (std::isnan(raw ? figure.raw : figure.value))
           continue;
         json &entry = result[identifier(figure.name)] =
-            json_quantity(raw ? figure.raw : figure.shown(), figure.unit_shown());
+            json_quantity(raw ? figure.raw : figure.value, figure.unit_in_files());
         if (figure.expected.empty() || !judged || raw)
           continue;
         const double low = figure.expected[0], high = figure.expected[1];
-        entry["expected"] = {low, high};
+        entry["expected"] = {low / figure.factor(), high / figure.factor()};
         entry["inside"] = figure.shown() >= low && figure.shown() <= high;
       }
       return result;

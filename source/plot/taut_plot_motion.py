@@ -60,7 +60,7 @@ def uplift(results, options):
         largest = statistic(results.statistics, "probes", name, "largest")
         limits = expected(results, name)
         place = re.search(r" at (\S+) m$", name)
-        items.append((name, 1e3 * max(0.0, values.max()) if largest is None else largest, limits,
+        items.append((name, 1e3 * (max(0.0, values.max()) if largest is None else largest), limits,
                       float(place[1]) if place and numbers(place[1]) else None))
     largest = max((value for _, value, *_ in items), default=0.0)
     n = len(items)
@@ -96,7 +96,7 @@ def expected(results, name):
     tree = results.statistics.get("probes")
     tree = tree.get(name, {}) if isinstance(tree, dict) else {}
     largest = tree.get("largest")
-    return list(largest.get("expected", [])) if isinstance(largest, dict) else []
+    return [1e3 * limit for limit in largest.get("expected", [])] if isinstance(largest, dict) else []
 
 
 class Motion:

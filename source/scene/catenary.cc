@@ -29,7 +29,8 @@ namespace taut
 
   void Catenary::PantographItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Masses", masses, "From the head down [kg]", List(not_negative(), 1));
+    prm.add_parameter("Masses", masses, "From the head down [kg]",
+                      List(not_negative(), 1));
     prm.add_parameter("Stiffnesses", stiffnesses,
                       "Of the spring below each mass, the last to the base [N/m]",
                       List(not_negative(), 1));
@@ -56,6 +57,10 @@ namespace taut
         Anything());
     prm.add_parameter("Static force", static_force,
                       "Upwards on the lowest mass, net of the weight [N]", Double());
+    // To add an action runs it, too; later it runs for entries of the file alone.
+    for (const char *const entry : {"Masses", "Stiffnesses", "Dampings", "Static force"})
+      prm.add_action(entry, [this, entry](const std::string &) { given.insert(entry); });
+    given.clear();
     prm.add_parameter("Base motion", base_motion,
                       "Of the roof that the lowest spring stands on, upwards: a formula in t, and "
                       "in s, the x of the pantograph; empty: it stands still [m]",

@@ -10,6 +10,7 @@
 #include <taut/scene/scene_generator.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ namespace taut
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
       bool faster_than_waves = false;
+      std::set<std::string> given; ///< entries that decide the contact force, of the file
       void declare(dealii::ParameterHandler &prm);
     };
     using Line = std::vector<TensionLength>;

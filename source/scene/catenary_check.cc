@@ -148,6 +148,15 @@ namespace taut
 
   void Catenary::check_lists(const PantographItem &item, const std::string &section) const
   {
+    for (const auto &[entry, usual] : {std::pair("Masses", "7.2, 15 kg"),
+                                       {"Stiffnesses", "4200, 50 N/m"},
+                                       {"Dampings", "10, 90 N s/m"},
+                                       {"Static force", "120 N at 250 km/h, lift included"}})
+      if (item.given.count(entry) == 0)
+        throw EntryError(section + "/" + entry,
+                         to_text("it is not given, and decides the contact force; the pantograph "
+                                 "of EN 50318:2002 has ",
+                                 usual));
     const std::size_t n = item.masses.size();
     if (item.stiffnesses.size() != n || item.dampings.size() != n)
       throw EntryError(section, "Masses, Stiffnesses and Dampings are lists of one length; got " +

@@ -252,6 +252,5 @@ namespace taut
           << " systems a step, "
           << static_cast<double>(solves.n_local_solves) / solves.n_applications
           << " bodies solved a product\n";
-    motion.costs().print(log);
   }
 } // namespace taut

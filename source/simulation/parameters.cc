@@ -316,6 +316,14 @@ namespace taut
     return std::filesystem::path(file.name()).filename().string();
   }
 
+  std::string Parameters::file_text() const
+  {
+    std::ifstream stream(file.name(), std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
   void Parameters::print(std::ostream &out) const
   {
     if (!declared.entries)

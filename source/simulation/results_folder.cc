@@ -30,9 +30,9 @@ namespace taut
     /// be from another run.
     std::set<std::string> names_of_results()
     {
-      std::set<std::string> names = {"used.prm",           "start.csv", "droppers.csv",
-                                     "dropper_cycles.csv", "wires.pvd", "statistics.json",
-                                     "links.pvd"};
+      std::set<std::string> names = {"used.prm",        "original.prm",       "start.csv",
+                                     "droppers.csv",    "dropper_cycles.csv", "wires.pvd",
+                                     "statistics.json", "links.pvd"};
       for (const char *const table : {"sliding", "links", "probes", "supports", "certificate"})
         for (const char *const ending : {".csv", ".bin"})
           names.insert(std::string(table) + ending);
@@ -146,6 +146,7 @@ namespace taut
   void prepare_folder(const Parameters &parameters, const std::vector<std::string> &comments)
   {
     const fs::path folder = parameters.output.folder;
+    const std::string original = parameters.file_text(); // which may be in the folder
     std::error_code error;
     check_folder(parameters);
     check_copies(parameters.output);
@@ -168,6 +169,8 @@ namespace taut
       used << "# " << comment << '\n';
     parameters.print(used);
     copy_data_files(data_files(), folder.string());
+    if (!original.empty())
+      write_file((folder / "original.prm").string(), original);
     replace_file(used_file, whole_text(used));
   }
 

@@ -181,9 +181,10 @@ namespace taut
       unseen = unseen_features();
     std::string reason;
     std::unique_ptr<StepAccuracy> steps;
-    RunInSteps run = {*motion, n_steps(), parameters.check_steps == "yes",
-                      warning_of_joints(model)};
-    if (!unseen.empty())
+    RunInSteps run = {*motion, n_steps(), parameters.check_steps == "yes", warning_of_joints(model),
+                      unseen.empty() ? std::numeric_limits<double>::infinity()
+                                     : unseen.front().limit};
+    if (!unseen.empty() && !StepAccuracy::sees_more(run))
       reason = "something lies between them";
     else if (parameters.check_steps == "automatic" && parameters.scheme != "automatic")
       reason = "the Scheme is given by name: set Time/Check steps = yes for it";

@@ -53,7 +53,7 @@ namespace taut
     return sums.n_steps > 0 ? sums.parts[static_cast<std::size_t>(part)] / sums.n_steps : 0.;
   }
 
-  void StepCosts::print(std::ostream &log) const
+  void StepCosts::print(const Sums &sums, std::ostream &log)
   {
     struct Line
     {
@@ -65,7 +65,7 @@ namespace taut
     for (std::size_t i = 0; i < n_step_parts; ++i)
     {
       const StepPart part = static_cast<StepPart>(i);
-      lines.push_back({part, mean(all, part)});
+      lines.push_back({part, mean(sums, part)});
       total += lines.back().seconds;
     }
     if (!(total > 0.))

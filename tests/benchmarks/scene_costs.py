@@ -22,7 +22,7 @@ parser.add_argument("--only", default="", help="regular expression: scenes with 
 arguments = parser.parse_args()
 
 NUMBER = r"([\d.]+(?:e[-+]?\d+)?)"
-BARE = ("Output/Field interval=0", "Output/Checkpoint interval=0", "Time/Check steps=no")
+BARE = ("Output/Field interval=0", "Output/Checkpoint interval=0", "Time/Check steps=no", "Output/Observers=cost")
 
 
 def said_by(*command):

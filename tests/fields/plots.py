@@ -166,7 +166,7 @@ def check_strips():
 def check_probes():
     path = folder("masts", probes={"time [s]": TIME, "wire at 50 m [m]": 0.04 * np.sin(TIME), "wire at 100 m [m]": 0.02 * TIME,
                                    "still [m]": 1e-15 * TIME})
-    (path / "statistics.json").write_text('{"probes": {"wire at 50 m": {"largest": {"value": 40, "expected": [30, 45]}}}}')
+    (path / "statistics.json").write_text('{"probes": {"wire at 50 m": {"largest": {"value": 0.04, "expected": [0.03, 0.045]}}}}')
     panel, = draw("uplift", path, plots=["uplift"]).axes
     close("uplift of each mast", [bar.get_height() for bar in panel.patches], [40, 40])
     close("its limits", sorted(line.get_ydata()[0] for line in panel.get_lines()), [30, 45])

@@ -113,7 +113,7 @@ TEST(CostTable, has_all_steps_of_a_run)
 
 TEST(CostTable, log_says_where_the_time_goes)
 {
-  const std::string log = log_of(scene_file("bar_on_wall"));
+  const std::string log = log_of(scene_file("bar_on_wall"), {"Output/Observers=cost"});
   const std::size_t begin = log.find("Where the time goes, us a step:\n");
   ASSERT_NE(begin, std::string::npos) << log;
   std::istringstream lines(log.substr(begin));

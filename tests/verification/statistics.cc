@@ -117,7 +117,7 @@ TEST(Statistics, moments_of_the_contact_force_are_those_of_the_samples_in_the_wi
   const double loss = double(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
   EXPECT_GT(loss, .05);
   EXPECT_LT(loss, .45);
-  EXPECT_NEAR(value(said, "contact_loss"), 100. * loss, 1e-10);
+  EXPECT_NEAR(value(said, "contact_loss"), loss, 1e-12);
   figure("statistics, contact loss of a jumping contact", loss);
   figure("statistics, standard deviation said over that of the samples - 1",
          value(said["raw"], "standard_deviation") / moments(raw).deviation - 1.);
@@ -154,9 +154,9 @@ TEST(Statistics, probes_have_their_largest_and_smallest_displacement)
   const auto [least, largest] = std::minmax_element(run().probe.begin(), run().probe.end());
   EXPECT_LT(*least, 0.);
   EXPECT_GT(*largest, 0.);
-  EXPECT_EQ(value(said, "largest"), 1e3 * *largest);
-  EXPECT_EQ(said["largest"]["unit"], "mm");
-  EXPECT_EQ(value(said, "smallest"), 1e3 * *least);
+  EXPECT_EQ(value(said, "largest"), *largest);
+  EXPECT_EQ(said["largest"]["unit"], "m");
+  EXPECT_EQ(value(said, "smallest"), *least);
 }
 
 // Claim: a window that the run does not reach to its end is named with what was used of it, and
@@ -203,7 +203,7 @@ TEST(Statistics, forces_that_cannot_be_filtered_are_not_judged)
   EXPECT_EQ(none.json["verdict"], "inside");
 }
 
-// Claim: statistics.json says what it is of, and value and range are in one unit. Expected: the
+// Claim: statistics.json says what it is of, and value and range are in one unit, of SI. Expected: the
 // entries of the file.
 TEST(Statistics, the_run_is_named_and_ranges_have_the_unit_of_the_value)
 {
@@ -218,10 +218,10 @@ TEST(Statistics, the_run_is_named_and_ranges_have_the_unit_of_the_value)
   EXPECT_FALSE(j["version"].get<std::string>().empty());
   const auto &uplift = j["probes"]["head"]["largest"],
              &loss = j["sliding_contacts"]["contact"]["contact_loss"];
-  EXPECT_EQ(uplift["unit"], "mm");
-  EXPECT_EQ(uplift["expected"], nlohmann::json({0., 50.}));
-  EXPECT_EQ(uplift["inside"].get<bool>(), uplift["value"] <= 50.);
-  EXPECT_EQ(loss["unit"], "%");
+  EXPECT_EQ(uplift["unit"], "m");
+  EXPECT_EQ(uplift["expected"], nlohmann::json({0., .05}));
+  EXPECT_EQ(uplift["inside"].get<bool>(), uplift["value"] <= .05);
+  EXPECT_EQ(loss["unit"], "1");
   EXPECT_TRUE(loss["inside"].get<bool>());
   EXPECT_EQ(j["links"]["rod"]["impulse"]["unit"], "N s");
 }

@@ -139,7 +139,7 @@ namespace taut
       std::vector<double> expected = {};                     ///< range in unit_shown(); empty: none
       bool shown_if_zero = true;                             ///< in the log
 
-      /// In log and file displacements are in mm and mrad, shares in %.
+      /// In the log, and for ranges, displacements are in mm and mrad, shares in %.
       double factor() const
       {
         return unit == "share" ? 100. : unit == "m" || unit == "rad" ? 1e3 : 1.;
@@ -149,6 +149,7 @@ namespace taut
         return unit == "share" ? "%" : factor() > 1. ? "m" + unit : unit;
       }
       double shown() const { return factor() * value; }
+      std::string unit_in_files() const { return unit == "share" ? "1" : unit; }
     };
 
     /// What has figures: a contact, sum, wire of a strip, probe, link, support or span.

@@ -192,6 +192,10 @@ namespace taut
     /// The parameter file, without its folder.
     std::string file_name() const;
 
+    /// The text of the parameter file as it stands there, without those that it includes; empty if
+    /// it cannot be read again.
+    std::string file_text() const;
+
     /// True if the choice of the scheme decides which nodes have mass (Time/Mass redistribution).
     bool chooses_contact_mass() const
     {

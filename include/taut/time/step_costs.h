@@ -75,7 +75,7 @@ namespace taut
     static double mean(const Sums &sums, StepPart part);
 
     /// Writes a line for each part that took time: its mean time in a step [us], and its share [%].
-    void print(std::ostream &log) const;
+    static void print(const Sums &sums, std::ostream &log);
 
   private:
     using Clock = std::chrono::steady_clock;
