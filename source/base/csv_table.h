@@ -10,9 +10,14 @@ namespace taut
 {
   /**
    * A table of a file: names of the columns in its first line, then a line for each row. Columns
-   * are separated by semicolons if the first line has one, else by commas. Cells may be quoted.
-   * With semicolons numbers may have a decimal comma. A byte order mark, empty lines and lines that
-   * begin with '#' do not count.
+   * are separated by semicolons if the first line has one, else by tabs, else by commas. Cells may
+   * be quoted. With semicolons or tabs numbers may have a decimal comma. A byte order mark, empty
+   * lines, empty cells at the ends of lines, and lines that begin with '#' do not count. Lines end
+   * as on any machine.
+   *
+   * A column is found by its name as written, or else without regard to capitals and to a unit of
+   * SI in brackets behind it: 'span' finds 'Span [m]'. Throws EntryError for a unit that is none,
+   * as the numbers would be too large or too small.
    */
   class CsvTable
   {
@@ -24,10 +29,16 @@ namespace taut
     CsvTable(const std::string &name, const std::string &entry);
 
     const std::vector<std::string> &columns() const { return names; }
+    /// Names in small letters without units.
+    std::vector<std::string> heads() const;
+
     std::size_t n_rows() const { return rows.size(); }
+
+    /// Whether a row of empty cells stands behind the last row. Other empty rows do not count.
+    bool has_empty_end() const { return is_empty_last; }
     bool has(const std::string &column) const;
 
-    /// A cell without spaces around it; empty if there is no such column. Rows count from 0.
+    /// A cell without spaces around it; empty if there is no such column or row. Rows count from 0.
     const std::string &text(std::size_t row, const std::string &column) const;
 
     /// The number of a cell. Throws EntryError that names the line if it is none, or not finite.
@@ -43,6 +54,7 @@ namespace taut
     [[noreturn]] void fail(std::size_t row, const std::string &message) const;
 
   private:
+    void read_line(std::size_t number, const std::string &line);
     std::vector<std::string> cells_of(const std::string &line) const;
     std::size_t index(const std::string &column) const;
     double to_number(std::size_t row, const std::string &column, std::string text) const;
@@ -56,6 +68,7 @@ namespace taut
     char separator = ',';
     std::vector<std::string> names;
     std::vector<Row> rows;
+    bool is_empty_last = false;
   };
 } // namespace taut
 

@@ -298,18 +298,21 @@ namespace taut
     const std::set<std::string> known = {
         "span",          "height",    "encumbrance", "stagger", "messenger stagger",
         "stitch length", "mid-point", "droppers",    "pre-sag", "lengths"};
-    for (const std::string &column : file.columns())
+    for (const std::string &column : file.heads())
       if (known.count(column) == 0)
         throw EntryError(entry, "file '" + table + "': there is no column '" + column + "'" +
                                     suggestion(column, {known.begin(), known.end()}));
     for (const char *const needed : {"span", "droppers"})
       if (!file.has(needed))
         throw EntryError(entry, "file '" + table + "' has no column '" + needed + "'");
-    if (file.n_rows() < 2)
+    // The last mast may have nothing of its own.
+    const bool ends_empty = file.has_empty_end() && !file.text(file.n_rows() - 1, "span").empty();
+    const std::size_t n_masts = file.n_rows() + (ends_empty ? 1 : 0);
+    if (n_masts < 2)
       throw EntryError(entry, "file '" + table + "' has one mast; a line has two and more");
     LineLayout result;
     double x = 0.;
-    for (std::size_t i = 0; i < file.n_rows(); ++i)
+    for (std::size_t i = 0; i < n_masts; ++i)
     {
       const auto value = [&](const std::string &column, const double otherwise)
       { return file.text(i, column).empty() ? otherwise : file.number(i, column); };
@@ -319,7 +322,7 @@ namespace taut
       const std::vector<double> places = file.numbers(i, "droppers"),
                                 sags = file.numbers(i, "pre-sag"),
                                 given = file.numbers(i, "lengths");
-      if (i + 1 == file.n_rows())
+      if (i + 1 == n_masts)
       {
         if (!file.text(i, "span").empty() || !places.empty())
           file.fail(i, "the last mast has no span after it; leave 'span' and 'droppers' empty");

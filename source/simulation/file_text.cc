@@ -2,6 +2,7 @@
 #include "simulation/file_text.h"
 
 #include "base/nearest_name.h"
+#include "base/utf8.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>
@@ -12,33 +13,6 @@
 
 namespace taut
 {
-  namespace
-  {
-    /// Number of bytes of the UTF-8 character at text[i]; 0 if there is none.
-    std::size_t utf8_length(const std::string &text, const std::size_t i)
-    {
-      const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-      const unsigned char first = byte(i);
-      const std::size_t n = first < 0x80   ? 1
-                            : first < 0xc2 ? 0
-                            : first < 0xe0 ? 2
-                            : first < 0xf0 ? 3
-                            : first < 0xf5 ? 4
-                                           : 0;
-      if (n == 0 || i + n > text.size())
-        return 0;
-      for (std::size_t k = 1; k < n; ++k)
-        if ((byte(i + k) & 0xc0) != 0x80)
-          return 0;
-      // Overlong forms, surrogates and values beyond the last code point (RFC 3629).
-      const unsigned char second = n > 1 ? byte(i + 1) : 0;
-      if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
-          (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
-        return 0;
-      return n;
-    }
-  } // namespace
-
   void check_text(const std::string &text, const std::string &place)
   {
     for (std::size_t i = 0; i < text.size();)

@@ -98,6 +98,17 @@ TEST(LinesAsBuilt, a_table_is_the_line_of_its_lists)
                                    repeated("1,2; \"60,0\"; " + with_commas + "\r\n", 10, "") +
                                    "1,2;;\r\n");
   EXPECT_EQ(forces_with({"Catenary/Line=" + other.path}), expected);
+
+  // As spreadsheets save tables: capitals, units, tabs or separators at ends of lines, rows of
+  // separators alone, line ends of an old Macintosh.
+  const File tabs("line.csv", "Span [m]\tDroppers\tEncumbrance (m)\t\t\n" +
+                                  repeated("60\t" + with_commas + "\t1,2\t\t\n", 10, "") +
+                                  "\t\t1,2\t\t\n\t\t\t\t\n");
+  EXPECT_EQ(forces_with({"Catenary/Line=" + tabs.path}), expected);
+  const File returns("line.csv", "SPAN;DROPPERS;ENCUMBRANCE;\r" +
+                                     repeated(";;;\r60;" + places + ";1.2;\r", 10, "") +
+                                     ";;;\r;;1.2\r;;;\r");
+  EXPECT_EQ(forces_with({"Catenary/Line=" + returns.path}), expected);
 }
 
 TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
@@ -116,6 +127,13 @@ TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
       has(error("span,droppers,pre-sag\n40,10 20,0.1\n,,\n"), "1 values in 'pre-sag' for 2"));
   EXPECT_TRUE(has(error("span,droppers\n40,10 20\n40,\n"), "line 3: the last mast has no span"));
   EXPECT_TRUE(has(error("span,droppers\n"), "has no rows"));
+  EXPECT_EQ(error("span,droppers\n40,10 20\n,\n,\n,\n"), "");
+  EXPECT_TRUE(
+      has(error("span [mm],droppers\n40000,10 20\n,\n"), "are in 'mm'; give them in units"));
+  EXPECT_TRUE(has(error("span,droppers\n# M\xfc"
+                        "ller\n40,10 20\n,\n"),
+                  "Latin-1, by its line 2"));
+  EXPECT_TRUE(has(error(std::string("\xFF\xFEs\0p\0a\0n\0", 10)), "in UTF-16"));
   EXPECT_TRUE(has(error_of([] { Session(bare_strings, {"Catenary/Line=none.csv"}); }),
                   "cannot read the file"));
 }
