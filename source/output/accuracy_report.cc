@@ -200,7 +200,7 @@ namespace taut
         other.record(motion.state(), motion.report());
         if (stop())
         {
-          reason = "the run was ended";
+          reason = "the check was ended";
           return std::nullopt;
         }
       }
@@ -316,7 +316,8 @@ namespace taut
   std::string StepAccuracy::report() const
   {
     if (!found)
-      return "Steps: the error is not known, as " + reason + '\n';
+      return reason.empty() ? "Steps: not checked, as the run was ended\n"
+                            : "Steps: the error is not known, as " + reason + '\n';
     std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
                        percent(found->impulse) + ", of energies " + percent(found->energy) +
                        " of the largest, from runs with other steps";

@@ -55,6 +55,41 @@ namespace taut
     file = std::make_unique<TableFile>(format, stem, header, goes_on);
   }
 
+  void IntervalTable::open_long(const std::string &stem, const std::vector<std::string> &heads,
+                                const bool goes_on)
+  {
+    is_long = true;
+    std::vector<std::string> header = {"time [s]", "name"};
+    for (const std::string &head : heads)
+    {
+      header.push_back(head);
+      for (const char *const kind : {" least", " largest"})
+        if (interval > 0.)
+          header.push_back(std::string(head).insert(head.find(" ["), kind));
+    }
+    if (interval > 0.)
+      header.emplace_back("changes [1]");
+    file = std::make_unique<TableFile>(TableFormat::csv, stem, header, goes_on);
+  }
+
+  void IntervalTable::write_long()
+  {
+    for (std::size_t k = 0; k < items.size(); ++k)
+    {
+      const std::size_t end = k + 1 < items.size() ? items[k + 1].first : columns.size();
+      double changes = 0.; // none of what has no state
+      file->begin_line(time) << items[k].name;
+      for (std::size_t i = items[k].first; i < end; ++i)
+        if (columns[i].kind == Kind::state)
+          changes = n_changes[i];
+        else if (*file << last[i]; interval > 0.)
+          *file << least[i] << largest[i];
+      if (interval > 0.)
+        *file << changes;
+      file->end_line();
+    }
+  }
+
   void IntervalTable::record(const double now, const std::vector<double> &values)
   {
     time = now;
@@ -75,7 +110,7 @@ namespace taut
   void IntervalTable::write_line()
   {
     line.clear();
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t i = 0; i < columns.size() && !is_long; ++i)
     {
       const Kind kind = columns[i].kind;
       if (kind != Kind::state)
@@ -88,10 +123,13 @@ namespace taut
         line.push_back(largest[i]);
       }
     }
+    if (is_long)
+      write_long();
+    else
+      file->add_line(time, line);
     std::fill(least.begin(), least.end(), infinity);
     std::fill(largest.begin(), largest.end(), -infinity);
     std::fill(n_changes.begin(), n_changes.end(), 0);
-    file->add_line(time, line);
     next = time + interval;
     is_pending = false;
   }

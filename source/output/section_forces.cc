@@ -296,7 +296,7 @@ namespace taut
       add("tension", section.force, "N", 1.);
       add("bending moment", section.moment, "N m", 1.);
       if (!areas.empty())
-        add("stress", section.stress, "N/mm^2", per_MPa);
+        add("stress", section.stress, "Pa", 1.);
     }
     return result;
   }

@@ -38,7 +38,10 @@ namespace taut
     const std::pair<IntervalTable *, const char *> tables[] = {
         {&sliding, "/sliding"}, {&links, "/links"}, {&supports, "/supports"}, {&probes, "/probes"}};
     for (const auto &[table, name] : tables)
-      if (!table->is_empty())
+      if (table == &links && has_long_links && !links.is_empty())
+        links.open_long(run.folder + name, {"force [N or N m]", "gap [m or rad]"},
+                        run.resumes);
+      else if (!table->is_empty())
         table->open(format, run.folder + name, run.resumes);
     const std::vector<std::string> columns = {"time [s]",
                                               "complementarity [1]",
@@ -57,6 +60,7 @@ namespace taut
   {
     const bool slides = constraint.kind() == Geometry::Kind::sliding;
     IntervalTable &table = slides ? sliding : links;
+    table.begin_item(constraint.name);
     if (slides)
       table.add_value(constraint.name + " position", "m");
     table.add_quantity(constraint.name + (constraint.rotational ? " moment" : " force"),

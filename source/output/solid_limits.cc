@@ -417,7 +417,7 @@ namespace taut
   std::vector<Warning> SolidLimits::warnings() const
   {
     const char *const names[] = {"turn",           "strain", "locking", "sliding",      "overhang",
-                                 "nodes on faces", "facets", "search",  "between nodes"};
+                                 "nodes_on_faces", "facets", "search",  "between_nodes"};
     const char *const units[] = {"rad", "1", "1", "elements", "1", "1", "faces", "m", "m"};
     std::vector<Warning> result;
     for (int k = 0; k < n_kinds; ++k)

@@ -30,9 +30,9 @@ namespace taut
    * - "sliding": at a closed contact the sides slide by less than half of the shorter element of
    *   both sides. A plane as the obstacle has no such limit.
    * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
-   * - "nodes on faces": loaded nodes of the slave are at nodes of the master.
+   * - "nodes_on_faces": loaded nodes of the slave are at nodes of the master.
    * - "facets": straight faces on curves are small beside the contact, see FacetLimits.
-   * - "between nodes": the other side does not enter a face between its nodes.
+   * - "between_nodes": the other side does not enter a face between its nodes.
    * - "search": nodes outside an automatic search distance stay open.
    */
   class SolidLimits

@@ -42,7 +42,7 @@ namespace taut
   void add_observers(const std::vector<NamedQuantity> &all, json &root)
   {
     for (const NamedQuantity &q : all)
-      root["observers"][q.item][q.quantity] = json_quantity(q.value, q.unit);
+      root["observers"][q.item][identifier(q.quantity)] = json_quantity(q.value, q.unit);
   }
 
   void add_warnings(const std::vector<Warning> &all, json &root)

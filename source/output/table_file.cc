@@ -62,8 +62,9 @@ namespace taut
     length = std::to_chars(text + 1, text + sizeof text, value).ptr - text;
   }
 
-  TableFile &TableFile::operator<<(const double value)
+  TableFile &TableFile::operator<<(const double given)
   {
+    const double value = given + 0.; // no -0
     if (format == TableFormat::binary)
     {
       add_bytes(&value, 1);

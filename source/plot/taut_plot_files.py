@@ -15,6 +15,16 @@ class UserError(Exception):
     """What a user can mend, said in one line."""
 
 
+def wide(header, lines):
+    """Header and values with columns for each item, of a table with a line for each item and time."""
+    names = list(dict.fromkeys(line[1] for line in lines))
+    lines = lines[:len(lines) - len(lines) % max(1, len(names))]
+    heads = [head.replace("[N or N m]", "[N]").replace("[m or rad]", "[m]") for head in header[2:]]
+    values = np.array([[float(cell) for cell in line[2:]] for line in lines]).reshape(-1, len(names) * len(heads))
+    times = np.array([float(line[0]) for line in lines[::max(1, len(names))]]).reshape(-1, 1)
+    return ["time [s]", *(f"{name} {head}" for name in names for head in heads)], np.hstack([times, values])
+
+
 class Table:
     """A table of taut, .csv or .bin: its columns by header, in order. A last line that a killed run left unfinished is
     dropped."""
@@ -30,6 +40,8 @@ class Table:
         try:
             if path.endswith(".bin"):
                 values = np.frombuffer(data[:len(data) - len(data) % (8 * len(header))])
+            elif header[1:2] == ["name"]:
+                header, values = wide(header, list(csv.reader(text.splitlines())))
             else:
                 values = np.array([[float(cell) for cell in line] for line in csv.reader(text.splitlines())])
             values = values.reshape(-1, len(header))

@@ -29,8 +29,7 @@ namespace taut
 
   void Catenary::PantographItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Masses", masses, "From the head down [kg]",
-                      List(not_negative(), 1));
+    prm.add_parameter("Masses", masses, "From the head down [kg]", List(not_negative(), 1));
     prm.add_parameter("Stiffnesses", stiffnesses,
                       "Of the spring below each mass, the last to the base [N/m]",
                       List(not_negative(), 1));
@@ -98,6 +97,13 @@ namespace taut
                       Selection("catenary|conductor rail"));
     prm.add_parameter("Lateral component", items.lateral,
                       "Motion along z, also where neither Stagger nor Wind asks for it");
+    prm.add_parameter(
+        "Curvature", items.curvature,
+        "Of the track, 1 / R, positive for a centre on the side of z > 0: a number, a "
+        "formula in s (= x), or 'table(FILE.csv, column, s)'. Places are those along "
+        "the track and beside it; wires run on chords between the masts and pull "
+        "their arms. A conductor rail follows the track [1/m]",
+        Anything());
     prm.add_parameter("Contact wires", items.n_contact_wires,
                       "2: twin contact wires side by side, each as section Contact wire says",
                       Integer(1, 2));

@@ -41,8 +41,8 @@ namespace taut
                                            return mast.contact_z != 0. || mast.messenger_z != 0.;
                                          });
                     });
-    return items.lateral || has_stagger || items.supports.has_rigid_arms() ||
-           !items.contact.wind_load("Contact wire").is_zero() ||
+    return items.lateral || has_stagger || !items.track_curvature().is_zero() ||
+           items.supports.has_rigid_arms() || !items.contact.wind_load("Contact wire").is_zero() ||
            !items.messenger.wind_load("Messenger wire").is_zero();
   }
 

@@ -7,6 +7,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <iomanip>
+#include <regex>
+
 namespace taut
 {
   using namespace dealii::Patterns;
@@ -74,9 +77,38 @@ namespace taut
     return wire;
   }
 
-  Expression LineWireItem::wind_load(const std::string &section) const
+  namespace
   {
-    return Expression(wind, "Catenary/" + section + "/Wind");
+    /// A formula in s = x as one in the s of a wire that begins at x = @p begin [m]. Tables take
+    /// 's+120' as their variable.
+    std::string along_wire(const std::string &formula, const double begin)
+    {
+      if (begin == 0.)
+        return formula;
+      const std::string shifted = to_text("s+", std::setprecision(17), begin);
+      static const std::regex call("\\btable\\s*\\([^()]*\\)"), s("\\bs\\b"),
+          variable(",\\s*s\\s*(?=[,)])");
+      std::string result;
+      std::size_t end = 0;
+      for (std::sregex_iterator at(formula.begin(), formula.end(), call), last; at != last; ++at)
+      {
+        result +=
+            std::regex_replace(formula.substr(end, at->position() - end), s, "(" + shifted + ")") +
+            std::regex_replace(at->str(), variable, ", " + shifted);
+        end = at->position() + at->length();
+      }
+      return result + std::regex_replace(formula.substr(end), s, "(" + shifted + ")");
+    }
+  } // namespace
+
+  Expression LineWireItem::wind_load(const std::string &section, const double begin) const
+  {
+    return Expression(along_wire(wind, begin), "Catenary/" + section + "/Wind");
+  }
+
+  Expression LineItems::track_curvature(const double begin) const
+  {
+    return Expression(along_wire(curvature, begin), "Catenary/Curvature");
   }
 
   void LineSupportsItem::declare(dealii::ParameterHandler &prm)

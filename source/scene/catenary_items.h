@@ -32,7 +32,8 @@ namespace taut
     Wire wire(const std::string &name, const std::string &section, const Coordinates &a,
               const Coordinates &b) const;
 
-    Expression wind_load(const std::string &section) const;
+    /// Of a tension length that begins at x = @p begin [m], over s on its wire.
+    Expression wind_load(const std::string &section, double begin = 0.) const;
   };
 
   /// What holds the wires at the inner masts.
@@ -85,7 +86,11 @@ namespace taut
     LineMidPointItem mid_point;
     NamedItems<LineMassItem> masses{"Catenary", "Point masses", "Point mass",
                                     "masses on the wires, e.g. insulators and clamps"};
-    bool lateral = false; ///< as an entry; see is_in_space
+    bool lateral = false;        ///< as an entry; see is_in_space
+    std::string curvature = "0"; ///< of the track over x [1/m]
+
+    /// As LineWireItem::wind_load().
+    Expression track_curvature(double begin = 0.) const;
 
     /// Wires move along z, too.
     bool is_in_space = false;

@@ -63,10 +63,13 @@ namespace taut
       if (variables.size() == 1)
         result.variable = variables.front();
       Interpolation kind = Interpolation::linear;
+      static const std::regex with_offset("(\\w+)\\s*([+-]\\s*[0-9.]+(?:[eE][+-]?[0-9]+)?)?");
+      std::smatch parts;
       for (std::size_t i = 2; i < words.size(); ++i)
         if (words[i] == "cubic")
           kind = Interpolation::cubic;
-        else if (std::find(variables.begin(), variables.end(), words[i]) != variables.end())
+        else if (std::regex_match(words[i], parts, with_offset) &&
+                 std::find(variables.begin(), variables.end(), parts.str(1)) != variables.end())
           result.variable = words[i];
         else
           throw EntryError(entry, call + ": '" + words[i] +
@@ -103,7 +106,9 @@ namespace taut
                         end = end_of_call(text, begin, entry);
       const Call call = make_call(text.substr(begin, end - 1 - begin), variables, entry);
       const bool is_all = trim(text.substr(0, found) + text.substr(end)).empty();
-      alone = is_all ? call.variable : "";
+      const bool is_variable = std::find(variables.begin(), variables.end(), call.variable) !=
+                               variables.end(); // without an offset
+      alone = is_all && is_variable ? call.variable : "";
       formula += text.substr(at, found - at) + "table_" + std::to_string(tables.size()) + "(" +
                  call.variable + ")";
       tables.push_back(call.table);

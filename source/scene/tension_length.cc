@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "scene/entries.h"
+#include "scene/written_items.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>
@@ -188,6 +189,28 @@ namespace taut
     }
   }
 
+  /// In coordinates along the track a straight wire has the curvature -k: its tension is balanced
+  /// as by the load T k.
+  void TensionLength::add_curvature(const std::size_t wire)
+  {
+    const Expression curvature = items.track_curvature(begin());
+    if (curvature.is_zero())
+      return;
+    if (curvature.depends_on_time())
+      throw EntryError("Catenary/Curvature", "'" + curvature.formula() +
+                                                 "': a track does not move; write a formula in s");
+    Load load;
+    load.name = "curve of " + scene.wires[wire].name;
+    load.origin = "Catenary/Curvature";
+    load.kind = Load::Kind::distributed;
+    load.target = {Attachment::Kind::wire, wire, 0.};
+    load.direction = {0., 0., 1.};
+    load.magnitude =
+        Expression(written_number(scene.wires[wire].tension) + "*(" + curvature.formula() + ")",
+                   "Catenary/Curvature");
+    scene.loads.push_back(load);
+  }
+
   void TensionLength::add_lateral()
   {
     const auto all = [](std::size_t) { return true; };
@@ -195,17 +218,18 @@ namespace taut
     { return !items.supports.has_rigid_arms() || mast == 0 || mast + 1 == line.masts.size(); };
     hold_aside(messenger, "messenger aside at mast", &LineMast::messenger_z, all);
     std::vector<std::pair<std::size_t, Expression>> loads = {
-        {messenger, items.messenger.wind_load("Messenger wire")}};
+        {messenger, items.messenger.wind_load("Messenger wire", begin())}};
     for (const std::size_t contact : contacts)
     {
       hold_aside(contact,
                  contact == contacts.front() ? "steady arm at mast" : "twin steady arm at mast",
                  &LineMast::contact_z, without_arm);
-      loads.emplace_back(contact, items.contact.wind_load("Contact wire"));
+      loads.emplace_back(contact, items.contact.wind_load("Contact wire", begin()));
     }
     for (const auto &[wire, load] : loads)
     {
       scene.wires[wire].has_lateral = true;
+      add_curvature(wire);
       if (load.is_zero())
         continue;
       Load wind;

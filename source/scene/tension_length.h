@@ -35,7 +35,7 @@ namespace taut
     /// left out.
     void add_probes(const std::vector<double> &x);
 
-    /// Stagger and wind.
+    /// Stagger, wind and the curve of the track.
     void add_lateral();
     void add_stitch_wires();
     void add_droppers();
@@ -60,6 +60,7 @@ namespace taut
     void add_dropper(const LineDropper &dropper, double height, const std::string &dropper_name,
                      std::size_t contact);
     /// @p is_held says at which masts.
+    void add_curvature(std::size_t wire);
     void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger,
                     const std::function<bool(std::size_t)> &is_held);
     void check_droppers() const;

@@ -37,8 +37,9 @@ namespace taut
         "Tables", tables,
         "How these tables are written, 'csv': as text; 'binary': to sliding.bin and so "
         "on, the header line of a CSV file and then line after line of numbers as 8-byte "
-        "doubles, for long runs in which text takes a fifth of the time",
-        Selection("csv|binary"));
+        "doubles, for long runs in which text takes a fifth of the time; 'long': as csv, but "
+        "links.csv has a line for each link and time, with the name of the link in a column",
+        Selection("csv|binary|long"));
     prm.add_parameter(
         "Field interval", field_interval,
         "Least time between two files of the motion of all wires for ParaView; 0: none "

@@ -191,7 +191,9 @@ namespace taut
     else if (parameters.check_steps == "automatic" && n_steps() > 0 &&
              !StepAccuracy::is_affordable(run))
       reason = "runs with other steps take long: set Time/Check steps = yes for them";
-    else if (parameters.check_steps != "no" && n_steps() > 0)
+    else if (parameters.check_steps == "no")
+      reason = "Time/Check steps = no";
+    else if (n_steps() > 0)
       steps = std::make_unique<StepAccuracy>(std::move(run));
     accuracy = std::make_unique<AccuracyReport>(motion->measures(), std::move(steps),
                                                 n_steps() > 0 ? reason : "", unseen);
@@ -264,7 +266,8 @@ namespace taut
     const TableFormat format = output.tables == "binary" ? TableFormat::binary : TableFormat::csv;
     if (output.writes)
       observed->observe(has_time()
-                            ? std::make_unique<Series>(model, links, format, output.link_interval)
+                            ? std::make_unique<Series>(model, links, format, output.link_interval,
+                                                       output.tables == "long")
                             : std::make_unique<Series>(model));
     for (Observer *guest : guests)
       observed->observe(*guest);

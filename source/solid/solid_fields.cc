@@ -80,7 +80,9 @@ namespace taut
         if (element.system_to_component_index(i).first == 0 &&
             node.distance(element.unit_support_point(i)) < same)
           node_of_displacement.push_back(i);
-    names.assign(dim * dim, "stress");
+    // Without its zz component, invariants of a tensor in the plane would not be those of the
+    // stress.
+    names.assign(dim * dim, dim == 2 ? "stress_in_plane" : "stress");
     kinds.assign(dim * dim, Kind::component_is_part_of_tensor);
     if (dim == 2)
       names.emplace_back("stress_zz");

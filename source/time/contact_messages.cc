@@ -18,7 +18,8 @@ namespace taut
     const bool took = s.taken > .5 * s.contact_energy;
     out << "unilateral links " << (took ? "took " : "gave ") << s.contact_energy << " J, "
         << s.relative_energy << " of the energy of what they are connected with, "
-        << (took ? "beside their springs and dampers" : "where they can only take it")
+        << (took ? "which neither their springs nor their dampers account for"
+                 : "where they can only take it")
         << ": most at '" << constraints[s.energy_constraint].name
         << "' between t = " << s.energy_begin << " and " << s.energy_end << " s";
     if (s.step > 0.)
@@ -78,9 +79,16 @@ namespace taut
           "bodies that move by large amounts gained ", s.motion_energy, " J from nowhere. ",
           remedy());
     if (s.gap_drifts)
-      add("contact_gap", s.gap, 0., 0., "'", constraints[s.gap_constraint].name,
-          "' presses across a gap, or penetrates, by more than the motion of a step: take "
-          "conditions on gaps");
+    {
+      const bool turns = constraints[s.gap_constraint].rotational;
+      result.push_back({"contact_gap",
+                        to_text(std::setprecision(3), "'", constraints[s.gap_constraint].name,
+                                "' presses across a gap of ", s.gap, turns ? " rad" : " m",
+                                ", or penetrates as far: more than the motion of two steps. Set "
+                                "'Time/Scheme' to 'automatic', or 'Moreau-Jean/Conditions' to "
+                                "'gaps then velocities'"),
+                        s.gap, 0., turns ? "rad" : "m", 0.});
+    }
     for (std::size_t i = 0; i < forces.size(); ++i)
       if (forces[i].end.force > pressed_at_end * forces[i].peak)
         result.push_back({"pressed_wire_end",
@@ -97,7 +105,7 @@ namespace taut
       add("peak_over_mean", s.resolution, unresolved, 0., "the largest force of '",
           constraints[s.resolution_row].name, "', ", s.peak,
           " N, is an impulse over a step; its largest mean over ", s.mean_time, " s is ",
-          s.mean_peak, " N: report that, or the impulse");
+          s.mean_peak, " N: report that, or the impulse, or set 'Time/Mass redistribution'");
     return result;
   }
 

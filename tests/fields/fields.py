@@ -3,8 +3,10 @@
 """Fields, read back by VTK, say the same as the tables of the run; taut-plot makes pictures, and its figures are those
 of statistics.json. Tables hold doubles and fields floats: half a unit in the last place of a float is 6e-8."""
 import csv
+import html.parser
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -82,12 +84,12 @@ def collection(path):
     return [(float(n.get("timestep")), path.parent / n.get("file")) for n in xml.parse(path).iter("DataSet")]
 
 
-def run(name, *settings):
+def run(name, *settings, scene=None):
     """Runs a scene to a fresh folder, with a line in each table at each time of a field."""
     folder = arguments.results / name
     shutil.rmtree(folder, ignore_errors=True)
-    command = [arguments.program, arguments.root / "prm" / f"{name}.prm",
-               *entries(f"Output/Folder={folder}", "Output/Link interval=0", *settings)]
+    command = [arguments.program, arguments.root / "prm" / f"{scene or name}.prm",
+               *entries(f"Output/Folder={folder}", *([] if "Link interval" in str(settings) else ["Output/Link interval=0"]), *settings)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return folder
 
@@ -179,7 +181,7 @@ def check_killed(name):
     """A run that is killed leaves collections that name complete files."""
     folder = arguments.results / f"{name}_killed"
     shutil.rmtree(folder, ignore_errors=True)
-    command = [arguments.program, arguments.root / "prm" / f"{name}.prm", "--set", f"Output/Folder={folder}",
+    command = [arguments.program, arguments.root / "prm" / f"{scene or name}.prm", "--set", f"Output/Folder={folder}",
                "--set", "Output/Field interval=0.001"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     while process.poll() is None and not (folder / "fields/links_00003.vtu").exists():
@@ -306,6 +308,44 @@ def check_filter(folder, script):
             errors.append(f"filtered {name}: {value} is not {said('filtered', name)}")
 
 
+class Report(html.parser.HTMLParser):
+    """Cells of tables, texts, counts of elements and names of a report."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.cells, self.text, self.count, self.ids, self.is_cell = [], "", {}, [], False
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.count[tag] = self.count.get(tag, 0) + 1
+        self.ids += [value for name, value in attrs if name == "id"]
+        self.is_cell = tag == "td"
+
+    def handle_endtag(self, tag):
+        self.is_cell = False
+
+    def handle_data(self, data):
+        self.text += data
+        if self.is_cell:
+            self.cells.append(data)
+
+
+def check_report(folder, script, cells, pictures):
+    """One HTML file with these cells and at least so many pictures, and without references to anything else."""
+    done = subprocess.run([sys.executable, script, folder, "--report"], capture_output=True, text=True)
+    path = folder / "figures" / "report.html"
+    if done.returncode != 0 or not path.exists():
+        errors.append(f"report of {folder.name}: {done.returncode} {done.stderr}")
+        return
+    text = path.read_text(encoding="utf-8")
+    report = Report(text)
+    errors.extend(f"report of {folder.name}: no cell '{cell}'" for cell in cells if cell not in report.cells)
+    if report.count.get("svg", 0) < pictures or len(set(report.ids)) < len(report.ids):
+        errors.append(f"report of {folder.name}: {report.count.get('svg', 0)} pictures, names of parts are used twice")
+    if re.search(r"https?:|src=|<link|<script", text):
+        errors.append(f"report of {folder.name}: refers to other files")
+
+
 def check_partial(whole, script):
     """taut-plot draws what a killed run has written, whole lines only, and says until when."""
     folder = whole.parent / "partial"
@@ -382,10 +422,20 @@ check_contact(results, 250 / 3.6, 60)
 check_order(results)
 check_killed("en50318_2002_250")
 check_filter(results, plot_script)
+said = json.loads((results / "statistics.json").read_text())["sliding_contacts"]["pantograph"]["filtered"]
+check_report(results, plot_script, ["pantograph", "dropper 1.1", f"{said['mean']['value']:.4g} N"], 6)
 check_partial(results, plot_script)
 check_intervals(arguments.results / "intervals", plot_script)
 check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "displacement_map"], plot_script)
 check_binary("en50318_2002_250_two", plot_script)
+# The long form of links.csv says the same, a line for each link.
+long = run("inclined_cable", "Time/End=1", "Output/Tables=long", "Output/Link interval=0.05")
+short = run("inclined_cable_wide", "Time/End=1", "Output/Link interval=0.05", scene="inclined_cable")
+tables = [load_plot(plot_script).Results(str(folder)).table("links.csv") for folder in (long, short)]
+for head, column in tables[1].columns.items():
+    compare(f"long table: {head}", tables[0].columns.get(head, np.nan), column, 0)
+if (long / "links.csv").read_text().splitlines()[0].count(",") != 8:
+    errors.append("the long table has other columns")
 
 results = run("en50318_2002_300", "Time/End=0", "Output/Field interval=1", "Partition/Number of substructures=3")
 check_cuts(results, 3)
@@ -440,6 +490,7 @@ for scene, end in (("bar_on_two_cables", 1), ("bracket_and_cables", 1), ("cable_
 
 # The pictures of a solid, and the pressure that is drawn.
 results = run("hertz_cylinder")
+check_report(results, plot_script, ["plate"], 2)
 check_pictures(results, ["contact_pressure", "stress"], plot_script)
 plot = load_plot(plot_script)
 (_, _, contact), = plot.last_fields(plot.Results(str(results)), "contact")
@@ -454,7 +505,7 @@ for state, across in (("strain", -3e5), ("stress", 0)):
     compare("force of a contact at rest", said["force"]["value"], (0, 1e6, 0), 1e6)
     compare("contact at rest", [said[key]["value"] for key in ("area", "largest_pressure", "closed")], (1, 1e6, said["nodes"]["value"]), 1e6)
     principal = sorted((0, across, -1e6), reverse=True)
-    expected = {"stress": (0, 0, 0, 0, -1e6, 0, 0, 0, 0), "stress_zz": across,
+    expected = {"stress_in_plane": (0, 0, 0, 0, -1e6, 0, 0, 0, 0), "stress_zz": across,
                 **{f"principal_stress_{i + 1}": value for i, value in enumerate(principal)},
                 "von_mises_stress": np.sqrt(1e12 + across**2 + across * 1e6)}
     for body in ("lower", "upper"):

@@ -214,7 +214,7 @@ TEST(SolidLimits, nodes_between_nodes_of_the_master_are_named)
     const bool is_named = has(found.log, "between nodes of the master");
     EXPECT_EQ(is_named, n[0] == '3') << found.log;
     EXPECT_EQ(is_named,
-              std::count(found.warnings.begin(), found.warnings.end(), "nodes on faces") == 1)
+              std::count(found.warnings.begin(), found.warnings.end(), "nodes_on_faces") == 1)
         << found.log;
   }
 }

@@ -43,7 +43,7 @@ TEST(ObserverQuantities, are_in_the_statistics)
   const nlohmann::json load = say(scene).json["observers"]["load"];
   EXPECT_NEAR(value(load, "speed"), .3, 1e-12);
   EXPECT_EQ(load["speed"]["unit"], "m/s");
-  EXPECT_NEAR(value(load, "twice the speed"), .6, 1e-12);
+  EXPECT_NEAR(value(load, "twice_the_speed"), .6, 1e-12);
 }
 
 TEST(ObserverQuantities, are_quantities_of_studies)

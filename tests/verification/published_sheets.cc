@@ -328,7 +328,7 @@ TEST(PublishedSheets, a_beam_on_a_tensionless_bed)
               lift_off = h * double(i) - 4.;
         });
     EXPECT_NEAR(lift_off, pi / (2. * b), h);
-    EXPECT_NEAR(value(session.statistics()["observers"]["beam"], "largest bending moment"), moment,
+    EXPECT_NEAR(value(session.statistics()["observers"]["beam"], "largest_bending_moment"), moment,
                 2e-3 * moment);
   }
 }

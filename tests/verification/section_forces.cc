@@ -32,10 +32,10 @@ TEST(SectionForces, of_a_beam_under_its_weight)
   const auto found = forces_of(
       beam("Components = beam; Bending stiffness = 1e5", "Section areas = 150; Diameters = 14") +
       "Gravity = 0, -9.81\nTime: Step = 1e-2; End = 0.02\n");
-  const double M = value(found, "largest bending moment");
+  const double M = value(found, "largest_bending_moment");
   EXPECT_NEAR(M, expected, 1.01 * q * h * h / 12.);
-  EXPECT_NEAR(value(found, "x of the largest bending moment"), 7., 1e-9);
-  EXPECT_NEAR(value(found, "largest stress"), M * 32. / (pi * std::pow(.014, 3)) * 1e-6, 1e-9 * M);
+  EXPECT_NEAR(value(found, "x_of_the_largest_bending_moment"), 7., 1e-9);
+  EXPECT_NEAR(value(found, "largest_stress"), M * 32. / (pi * std::pow(.014, 3)), 1e-3 * M);
 }
 
 TEST(SectionForces, of_a_beam_under_tension)
@@ -46,11 +46,10 @@ TEST(SectionForces, of_a_beam_under_tension)
                                     "Element size = 0.05",
                                     "Section areas = 150; Diameters = 14") +
                                "Gravity = 0, -9.81\nTime: Step = 1e-2; End = 0.02\n");
-  const double M = value(found, "largest bending moment");
+  const double M = value(found, "largest_bending_moment");
   EXPECT_NEAR(M, expected, .03 * expected);
-  EXPECT_EQ(value(found, "largest tension"), T);
-  EXPECT_NEAR(value(found, "largest stress"),
-              (T / 150e-6 + M * 32. / (pi * std::pow(.014, 3))) * 1e-6, 1e-6);
+  EXPECT_EQ(value(found, "largest_tension"), T);
+  EXPECT_NEAR(value(found, "largest_stress"), T / 150e-6 + M * 32. / (pi * std::pow(.014, 3)), 1.);
 }
 
 TEST(SectionForces, of_a_force_that_grows)
@@ -60,9 +59,9 @@ TEST(SectionForces, of_a_force_that_grows)
       forces_of(beam("Components = beam; Bending stiffness = 1e6; Mass damping = 20", "") +
                 "Gravity = 0, 0\nLoad push: Type = point; On = beam @ 5; Magnitude = 100*t\n"
                 "Time: Scheme = Newmark; Step = 1e-2; End = 2\n");
-  EXPECT_NEAR(value(found, "largest bending moment"), 200. * 10. / 4., 1.);
-  EXPECT_NEAR(value(found, "time of the largest bending moment"), 2., 1e-9);
-  EXPECT_EQ(found.count("largest stress"), 0u);
+  EXPECT_NEAR(value(found, "largest_bending_moment"), 200. * 10. / 4., 1.);
+  EXPECT_NEAR(value(found, "time_of_the_largest_bending_moment"), 2., 1e-9);
+  EXPECT_EQ(found.count("largest_stress"), 0u);
 }
 
 TEST(SectionForces, of_a_bar)
@@ -74,8 +73,8 @@ TEST(SectionForces, of_a_bar)
       "Load pull: Type = point; On = beam @ 4, 0; Direction = 1, 0; Magnitude = 300\n"
       "Time: Step = 1e-3; End = 1e-3\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam\n");
-  EXPECT_NEAR(value(found, "largest tension"), 300., 1e-8);
-  EXPECT_EQ(value(found, "largest bending moment"), 0.);
+  EXPECT_NEAR(value(found, "largest_tension"), 300., 1e-8);
+  EXPECT_EQ(value(found, "largest_bending_moment"), 0.);
 }
 
 TEST(SectionForces, of_wires_that_are_not_there_are_refused)
@@ -109,10 +108,10 @@ TEST(SectionForces, of_a_cable_that_hangs)
       "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam; Section areas = 20; Diameters = 5\n");
   const double T = 200. + 1.5 * 9.81 * 10.;
-  EXPECT_NEAR(value(found, "largest tension"), T, 1e-5 * T);
-  EXPECT_NEAR(value(found, "x of the largest tension"), 3., 1e-9);
-  EXPECT_NEAR(value(found, "largest stress"), T / 20., 1e-5 * T);
-  EXPECT_EQ(value(found, "largest bending moment"), 0.);
+  EXPECT_NEAR(value(found, "largest_tension"), T, 1e-5 * T);
+  EXPECT_NEAR(value(found, "x_of_the_largest_tension"), 3., 1e-9);
+  EXPECT_NEAR(value(found, "largest_stress"), T / 20e-6, 10. * T);
+  EXPECT_EQ(value(found, "largest_bending_moment"), 0.);
 }
 
 TEST(SectionForces, of_a_cable_that_is_clamped)
@@ -125,6 +124,6 @@ TEST(SectionForces, of_a_cable_that_is_clamped)
       "Load push: On = beam @ 4, 0; Direction = 0, 1; Magnitude = 5\n"
       "Time: Step = 1e-2; End = 0.02\nOutput: Observers = section forces\n"
       "Output/section forces: Wires = beam\n");
-  EXPECT_NEAR(value(found, "largest bending moment"), 20., 1e-3 * 20.);
-  EXPECT_NEAR(value(found, "x of the largest bending moment"), 2., 1e-9);
+  EXPECT_NEAR(value(found, "largest_bending_moment"), 20., 1e-3 * 20.);
+  EXPECT_NEAR(value(found, "x_of_the_largest_bending_moment"), 2., 1e-9);
 }

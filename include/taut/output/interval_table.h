@@ -20,6 +20,9 @@ namespace taut
     /// @p interval [s]; 0: every step.
     explicit IntervalTable(const double interval = 0.) : interval(interval) {}
 
+    /// The columns that are added from here on are those of this item, with its name in front.
+    void begin_item(const std::string &name) { items.push_back({name, columns.size()}); }
+
     /// Adds a smooth quantity, without extremes.
     void add_value(const std::string &name, const std::string &unit);
 
@@ -34,6 +37,11 @@ namespace taut
     /// Creates the file @p stem.csv or @p stem.bin; if it @p goes_on, leaves it for load(). Throws
     /// UserError on failure.
     void open(TableFormat format, const std::string &stem, bool goes_on = false);
+
+    /// The same with a line for each item and time, in the place of columns for each item. Each
+    /// item has as many values and quantities as there are @p heads, and one state at most.
+    void open_long(const std::string &stem, const std::vector<std::string> &heads,
+                   bool goes_on = false);
 
     /// Records one step at a time [s]: a value for each column in the order of their addition; for
     /// a state, a number that changes with it. Throws UserError if the disk is full.
@@ -62,6 +70,7 @@ namespace taut
 
     void add(const std::string &name, const std::string &unit, Kind kind);
     void write_line();
+    void write_long();
     template <typename Archive>
     void store(Archive &archive);
 
@@ -71,6 +80,14 @@ namespace taut
     std::vector<double> last, least, largest; ///< of each column
     std::vector<unsigned int> n_changes;      ///< of each state
     std::vector<double> line;
+
+    struct Item
+    {
+      std::string name;
+      std::size_t first; ///< of its columns
+    };
+    std::vector<Item> items;
+    bool is_long = false;
     std::unique_ptr<TableFile> file;
   };
 } // namespace taut

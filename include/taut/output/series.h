@@ -15,7 +15,8 @@ namespace taut
   /**
    * Writes time series as tables: sliding.csv (position, force, gap of each sliding contact; of a
    * strip the sum of the forces and the least gap, and beside them those of each wire),
-   * links.csv (force and gap of each fixed link), supports.csv (force of each support on its wire),
+   * links.csv (force and gap of each fixed link; in its long form a line for each of them),
+   * supports.csv (force of each support on its wire),
    * probes.csv, certificate.csv; .bin for binary tables. Empty files are not made. With an
    * interval, all tables but the last have the extremes since the line before, and for unilateral
    * links the number of openings and closings.
@@ -26,8 +27,10 @@ namespace taut
     /// @p scene and @p constraints are kept by reference. @p link_interval: least time between
     /// lines of links.csv and supports.csv [s], 0: each step. Others have the interval of the run.
     Series(const Scene &scene, const Constraints &constraints,
-           const TableFormat format = TableFormat::csv, const double link_interval = 0.)
-        : scene(scene), constraints(&constraints), format(format), link_interval(link_interval)
+           const TableFormat format = TableFormat::csv, const double link_interval = 0.,
+           const bool has_long_links = false)
+        : scene(scene), constraints(&constraints), format(format), link_interval(link_interval),
+          has_long_links(has_long_links)
     {
     }
 
@@ -58,6 +61,7 @@ namespace taut
     const Constraints *const constraints; ///< nullptr: at rest
     const TableFormat format;
     const double link_interval;
+    const bool has_long_links = false;
     bool is_open = false; ///< on the root
     double interval = 0., next = 0.;
     std::vector<SlidingContact> contacts;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: in a curve of the track wires run on chords between the masts and pull their arms.
+// Source: the geometry of a polygon in a circle: a chord of an arc L is R (1 - cos(L / 2R)) inside
+// of it, and a wire with tension T turns by L / R at each mast, by 2 T sin(L / 2R).
+#include "scene_tests.h"
+
+using namespace verification;
+
+namespace
+{
+  constexpr double span = 50., tension = 10000.;
+
+  /// Strings without droppers and pantographs.
+  const std::string line = R"(Generator = catenary
+Start = equilibrium
+Catenary: Number of spans = 6; Span length = 50; Pantographs =
+Catenary/Contact wire: Model = string; Mass per length = 1; Tension = 10000; Element size = 1
+Catenary/Messenger wire: Model = string; Mass per length = 0.8; Tension = 12000; Element size = 1
+Catenary/Supports: Arm mass = 0
+Catenary/Droppers: Positions =
+Time: End = 0
+)";
+
+  /// Offsets of the contact wire at the middles of the spans along z.
+  std::vector<double> offsets(const Overrides &overrides, const std::string &scene = line)
+  {
+    std::vector<double> result;
+    run_scene(scene, overrides,
+              [&](const taut::StepView &view)
+              {
+                for (std::size_t w = 0; w < view.scene.wires.size(); ++w)
+                  if (has(view.scene.wires[w].name, "contact"))
+                    for (double s = .5 * span;
+                         s < norm(view.scene.wires[w].b - view.scene.wires[w].a); s += span)
+                      result.push_back(displacement(view, w, s, {0., 0., 1.}));
+              });
+    return result;
+  }
+
+  const std::vector<double> none(6, 0.);
+} // namespace
+
+TEST(Curves, wires_run_on_chords)
+{
+  for (const double R : {300., 1000., -1000., 1e4})
+  {
+    // What small angles cost is a 24th of the square of the angle at a mast.
+    const double chord = std::copysign(R - R * std::cos(.5 * span / R), R),
+                 small = std::pow(span / R, 2) / 23. + 1e-7;
+    for (const double offset : offsets({"Catenary/Curvature=1/(" + number(R) + ")"}))
+      EXPECT_NEAR(offset, chord, small * std::fabs(chord)) << R;
+    Session session(line, {"Catenary/Curvature=1/(" + number(R) + ")"});
+    session.run();
+    const auto supports = read_table(session.folder() + "/supports.csv");
+    const double pull = -supports.at("steady arm at mast 3 force [N]").front(),
+                 exact = std::copysign(2. * tension * std::sin(std::fabs(.5 * span / R)), R);
+    EXPECT_NEAR(pull, exact, small * std::fabs(exact)) << R;
+  }
+  figure("offset of a chord of 50 m, R = 300 m",
+         offsets({"Catenary/Curvature=1/300"})[2] / (300. - 300. * std::cos(25. / 300.)) - 1.);
+  EXPECT_EQ(offsets({"Catenary/Lateral component=true"}), none);
+}
+
+// A curve that begins and ends: Mohr's analogy, each chord sees the curvature of its span alone.
+TEST(Curves, a_table_is_the_track_of_its_formula)
+{
+  const Folder folder;
+  const std::string table =
+      folder.write("track.csv", "x [m];Curvature [1]\n0;0\n100;0\n150;0,001\n200;0,001\n300;0\n");
+  const std::vector<double> found =
+      offsets({"Catenary/Curvature=table(" + table + ", curvature, s)"});
+  const auto curvature = [](const double x) {
+    return x < 100. ? 0. : x < 150. ? (x - 100.) / 5e4 : x < 200. ? .001 : (300. - x) / 1e5;
+  };
+  ASSERT_EQ(found.size(), 6u);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    // w = integral of G(x, y) k(y) dy with Green's function of a string, at the middle.
+    double w = 0.;
+    constexpr int n = 1000;
+    for (int k = 0; k < n; ++k)
+    {
+      const double y = (k + .5) * span / n;
+      w += .5 * std::min(y, span - y) * curvature(i * span + y) * span / n;
+    }
+    EXPECT_NEAR(found[i], w, 1e-5) << i;
+  }
+
+  // Of a tension length that begins elsewhere x is that of the line.
+  std::string two = line;
+  const std::string one = "Number of spans = 6; Span length = 50; ";
+  two.replace(two.find(one), one.size(), "Tension lengths = a, b; ");
+  const std::string bare = "Catenary/Droppers: Positions =\n";
+  two.replace(two.find(bare), bare.size(),
+              "Catenary/Tension length a/Droppers: Positions =\n"
+              "Catenary/Tension length b/Droppers: Positions =\n");
+  two += "Catenary/Tension length a: Number of spans = 2; Span length = 50\n"
+         "Catenary/Tension length b: Number of spans = 4; Span length = 50; Begin = 100\n";
+  for (const std::string &curve : {"table(" + table + ", curvature, s)",
+                                   std::string("(s>=100)*(s<150)*(s-100)/5e4+(s>=150)*(s<200)*"
+                                               "0.001+(s>=200)*(300-s)/1e5")})
+  {
+    const std::vector<double> parts = offsets({"Catenary/Curvature=" + curve}, two);
+    ASSERT_EQ(parts.size(), 6u);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      EXPECT_NEAR(parts[i], found[i], 1e-6) << curve << ", " << i;
+  }
+}
+
+// The pantograph meets the same wire: what droppers and arms do across the track is of second
+// order.
+TEST(Curves, a_pantograph_feels_the_line_of_a_straight_track)
+{
+  const Overrides run = {"Time/End=0.5", "Statistics/Window=", "Time/Check steps=no",
+                         "Catenary/Lateral component=true"};
+  const auto mean = [&](const Overrides &more)
+  {
+    const Said said = say(scene_file("en50318_2002_250"), run + more);
+    double sum = 0.;
+    const std::vector<double> &forces = said.sliding.at("pantograph force [N]");
+    for (const double force : forces)
+      sum += force;
+    return sum / forces.size();
+  };
+  const double straight = mean({}), curved = mean({"Catenary/Curvature=1/1000"});
+  EXPECT_NEAR(figure("mean force in a curve of 1000 m", curved / straight), 1., 1e-3);
+}
+
+TEST(Curves, that_move_are_refused)
+{
+  EXPECT_TRUE(
+      has(error_of([] { Session(line, {"Catenary/Curvature=0.001*t"}).simulation().check(); }),
+          "a track does not move"));
+  EXPECT_TRUE(has(error_of([] { Session(line, {"Catenary/Curvature=1/R"}); }), "Curvature"));
+}
