@@ -354,6 +354,7 @@ namespace taut
       part.check();
       part.add_supports();
       part.add_point_masses();
+      part.add_vertical_loads();
       part.add_probes(uplifts);
       if (all.is_in_space)
         part.add_lateral();

@@ -36,11 +36,18 @@ namespace taut
     prm.add_parameter("Stiffness damping", stiffness_damping,
                       "Rayleigh damping, times the stiffness [s]", not_negative());
     if (has_wind)
+    {
+      prm.add_parameter("Vertical load", vertical_load,
+                        "Along y beside the weight, as a gust from below or ice that falls: a "
+                        "formula in t and in s (= x); lengths of droppers are found without it "
+                        "[N/m]",
+                        Anything());
       prm.add_parameter(
           "Wind", wind,
           "Load along z, a formula in t and in s (= x); lengths of droppers are found "
           "without it [N/m]",
           Anything());
+    }
     prm.leave_subsection();
   }
 
@@ -104,6 +111,11 @@ namespace taut
   Expression LineWireItem::wind_load(const std::string &section, const double begin) const
   {
     return Expression(along_wire(wind, begin), "Catenary/" + section + "/Wind");
+  }
+
+  Expression LineWireItem::load_along_y(const std::string &section, const double begin) const
+  {
+    return Expression(along_wire(vertical_load, begin), "Catenary/" + section + "/Vertical load");
   }
 
   Expression LineItems::track_curvature(const double begin) const

@@ -17,7 +17,7 @@ namespace taut
     double mass_per_length, tension, bending_stiffness, element_size;
     double mass_damping = 0.0125, stiffness_damping = 1e-4;
     unsigned int degree = 2;
-    std::string wind = "0";
+    std::string wind = "0", vertical_load = "0";
 
     /// Whether the parameter file says them: they have no silent default.
     bool has_mass = false, has_tension = false;
@@ -34,6 +34,7 @@ namespace taut
 
     /// Of a tension length that begins at x = @p begin [m], over s on its wire.
     Expression wind_load(const std::string &section, double begin = 0.) const;
+    Expression load_along_y(const std::string &section, double begin = 0.) const;
   };
 
   /// What holds the wires at the inner masts.

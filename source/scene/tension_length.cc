@@ -199,16 +199,41 @@ namespace taut
     if (curvature.depends_on_time())
       throw EntryError("Catenary/Curvature", "'" + curvature.formula() +
                                                  "': a track does not move; write a formula in s");
+    add_load(
+        wire, "curve of ",
+        Expression(written_number(scene.wires[wire].tension) + "*(" + curvature.formula() + ")",
+                   "Catenary/Curvature"),
+        {0., 0., 1.});
+    scene.loads.back().acts_while_built = true;
+  }
+
+  /// A force per length that comes once the line is built; nothing if it is zero.
+  void TensionLength::add_load(const std::size_t wire, const std::string &what,
+                               const Expression &magnitude, const Coordinates &direction)
+  {
+    if (magnitude.is_zero())
+      return;
     Load load;
-    load.name = "curve of " + scene.wires[wire].name;
-    load.origin = "Catenary/Curvature";
+    load.name = what + scene.wires[wire].name;
+    load.origin = scene.wires[wire].origin;
     load.kind = Load::Kind::distributed;
     load.target = {Attachment::Kind::wire, wire, 0.};
-    load.direction = {0., 0., 1.};
-    load.magnitude =
-        Expression(written_number(scene.wires[wire].tension) + "*(" + curvature.formula() + ")",
-                   "Catenary/Curvature");
+    load.direction = direction;
+    load.magnitude = magnitude;
+    load.acts_while_built = false;
     scene.loads.push_back(load);
+  }
+
+  void TensionLength::add_vertical_loads()
+  {
+    const auto add = [this](const std::size_t wire, const LineWireItem &item,
+                            const std::string &section) {
+      add_load(wire, "vertical load on ", item.load_along_y(section, begin()), {0., 1., 0.});
+    };
+    for (const std::size_t contact : contacts)
+      add(contact, items.contact, "Contact wire");
+    if (!items.is_rail)
+      add(messenger, items.messenger, "Messenger wire");
   }
 
   void TensionLength::add_lateral()
@@ -230,17 +255,7 @@ namespace taut
     {
       scene.wires[wire].has_lateral = true;
       add_curvature(wire);
-      if (load.is_zero())
-        continue;
-      Load wind;
-      wind.name = "wind on " + scene.wires[wire].name;
-      wind.origin = scene.wires[wire].origin;
-      wind.kind = Load::Kind::distributed;
-      wind.target = {Attachment::Kind::wire, wire, 0.};
-      wind.direction = {0., 0., 1.};
-      wind.magnitude = load;
-      wind.acts_while_built = false;
-      scene.loads.push_back(wind);
+      add_load(wire, "wind on ", load, {0., 0., 1.});
     }
   }
 } // namespace taut

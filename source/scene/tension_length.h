@@ -35,6 +35,8 @@ namespace taut
     /// left out.
     void add_probes(const std::vector<double> &x);
 
+    void add_vertical_loads();
+
     /// Stagger, wind and the curve of the track.
     void add_lateral();
     void add_stitch_wires();
@@ -61,6 +63,8 @@ namespace taut
                      std::size_t contact);
     /// @p is_held says at which masts.
     void add_curvature(std::size_t wire);
+    void add_load(std::size_t wire, const std::string &what, const Expression &magnitude,
+                  const Coordinates &direction);
     void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger,
                     const std::function<bool(std::size_t)> &is_held);
     void check_droppers() const;

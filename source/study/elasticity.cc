@@ -85,6 +85,22 @@ namespace taut
       return scene;
     }
 
+    /// Wires that move across and that no other wire hangs from.
+    std::set<std::size_t> lowest_wires(const Scene &scene)
+    {
+      std::set<std::size_t> result;
+      for (std::size_t w = 0; w < scene.wires.size(); ++w)
+        if (scene.wires[w].has(WireMotion::transverse))
+          result.insert(w);
+      for (const Link &link : scene.links)
+        if (link.from.kind == Attachment::Kind::wire && link.to.kind == Attachment::Kind::wire)
+        {
+          const Wire &from = scene.wires[link.from.index], &to = scene.wires[link.to.index];
+          result.erase(from.a.y > to.a.y ? link.from.index : link.to.index);
+        }
+      return result;
+    }
+
     std::vector<double> places_between(const double first, const double last, const double spacing)
     {
       const int n = std::max(1, static_cast<int>(std::lround((last - first) / spacing)));
@@ -146,9 +162,11 @@ namespace taut
       if (link.moving() && link.to.kind == Attachment::Kind::wire)
         under.insert(link.to.index);
     if (under.empty())
+      under = lowest_wires(all);
+    if (under.empty())
       throw UserError(
-          "--elasticity measures the wires that sliding contacts slide on, and the scene "
-          "has no sliding contact on a wire");
+          "--elasticity measures the wires that sliding contacts slide on, or those that "
+          "hang lowest, and the scene has no wire that moves across");
     SharedParts shared;
     shared.begin();
     Scene scene = find_lengths(without_sliding_contacts(all), parameters.solver, &shared);

@@ -126,6 +126,42 @@ TEST(Curves, a_pantograph_feels_the_line_of_a_straight_track)
   EXPECT_NEAR(figure("mean force in a curve of 1000 m", curved / straight), 1., 1e-3);
 }
 
+// A load from below on the whole messenger wire lifts each span by q L^2 / 8 T. The contact wire
+// hangs from its ends alone here: Green's function of a string.
+TEST(Lines, vertical_loads_lift_their_wire)
+{
+  using Heights = std::map<std::string, std::vector<double>>;
+  const auto heights = [](const Overrides &overrides)
+  {
+    Heights result;
+    run_scene(line, overrides,
+              [&](const taut::StepView &view)
+              {
+                for (std::size_t w = 0; w < view.scene.wires.size(); ++w)
+                  for (double s = .5 * span; s < 6. * span; s += span)
+                    result[view.scene.wires[w].name].push_back(displacement(view, w, s));
+              });
+    return result;
+  };
+  const Heights still = heights({}),
+                lifted = heights({"Catenary/Contact wire/Vertical load=4*(s>100)*(s<150)",
+                                  "Catenary/Messenger wire/Vertical load=3"});
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(lifted.at("messenger")[i] - still.at("messenger")[i],
+                3. * span * span / 8. / 12000., 1e-9);
+    const double x = (i + .5) * span, L = 6. * span;
+    double moment = 0.;
+    constexpr int n = 1000;
+    for (int k = 0; k < n; ++k)
+    {
+      const double y = 100. + (k + .5) * 50. / n;
+      moment += 4. * std::min(x, y) * (L - std::max(x, y)) / L * 50. / n;
+    }
+    EXPECT_NEAR(lifted.at("contact")[i] - still.at("contact")[i], moment / tension, 1e-6);
+  }
+}
+
 TEST(Curves, that_move_are_refused)
 {
   EXPECT_TRUE(

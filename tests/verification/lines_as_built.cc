@@ -524,6 +524,15 @@ TEST(Elasticity, can_be_repeated_from_its_folder)
   EXPECT_EQ(run(session.folder() + "/elasticity.prm", {}), first);
 }
 
+TEST(Elasticity, of_the_lowest_wire_without_a_pantograph)
+{
+  const taut::ElasticityOfWire with = elasticity_of_line({"Elasticity/Spacing=20"}),
+                               without = elasticity_of_line(
+                                   {"Elasticity/Spacing=20", "Catenary/Pantographs="});
+  EXPECT_EQ(without.x, with.x);
+  EXPECT_LE(largest_difference(without.elasticity, with.elasticity), 1e-9 * with.largest());
+}
+
 TEST(Elasticity, is_linear_as_long_as_no_dropper_opens)
 {
   const taut::ElasticityOfWire linear = elasticity_of_line({"Elasticity/Spacing=20"}),
