@@ -162,6 +162,18 @@ TEST(Lines, vertical_loads_lift_their_wire)
   }
 }
 
+TEST(Curves, scene_of_the_page)
+{
+  Session session(scene_file("line_in_a_curve"));
+  session.run();
+  const auto probes = read_table(session.folder() + "/probes.csv"),
+             supports = read_table(session.folder() + "/supports.csv");
+  // A beam turns within sqrt(EI / T) of a mast.
+  const double turns = .5 * span / 800. * std::sqrt(195. / 20000.);
+  EXPECT_NEAR(probes.at("middle [m]").front(), -.2 + span * span / 8. / 800. - turns, 1e-3);
+  EXPECT_NEAR(supports.at("steady arm at mast 6 force [N]").front(), -20000. * span / 800., 1.);
+}
+
 TEST(Curves, that_move_are_refused)
 {
   EXPECT_TRUE(

@@ -482,12 +482,13 @@ namespace
     return (under(force) - under(0.)) / force;
   }
 
-  taut::ElasticityOfWire elasticity_of_line(const Overrides &overrides)
+  taut::ElasticityOfWire elasticity_of_line(const Overrides &overrides,
+                                            const std::string &name = "en50318_2002_250")
   {
-    Session session(scene_file("en50318_2002_250"));
+    Session session(scene_file(name));
     std::ostringstream log;
     taut::Elasticity elasticity(
-        scene_file("en50318_2002_250"),
+        scene_file(name),
         Overrides{"Output/Folder=" + session.folder(), "Elasticity/Range=240, 300"} + overrides,
         true, log);
     return elasticity.run().front();
@@ -526,9 +527,13 @@ TEST(Elasticity, can_be_repeated_from_its_folder)
 
 TEST(Elasticity, of_the_lowest_wire_without_a_pantograph)
 {
-  const taut::ElasticityOfWire with = elasticity_of_line({"Elasticity/Spacing=20"}),
-                               without = elasticity_of_line(
-                                   {"Elasticity/Spacing=20", "Catenary/Pantographs="});
+  const Overrides places = {"Elasticity/Spacing=20"},
+                  pantograph = {"Catenary/Pantographs=p", "Catenary/Pantograph p/Masses=7",
+                                "Catenary/Pantograph p/Stiffnesses=50",
+                                "Catenary/Pantograph p/Dampings=50",
+                                "Catenary/Pantograph p/Static force=60"};
+  const taut::ElasticityOfWire without = elasticity_of_line(places, "line_55m"),
+                               with = elasticity_of_line(places + pantograph, "line_55m");
   EXPECT_EQ(without.x, with.x);
   EXPECT_LE(largest_difference(without.elasticity, with.elasticity), 1e-9 * with.largest());
 }
