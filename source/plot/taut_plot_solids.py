@@ -105,9 +105,20 @@ def outline(arrays):
                                       arrays["connectivity"][begins[kinds == kind] + (i + 1) % n]], axis=1)
                             for kind, n in ((QUADRILATERAL, 4), (TRIANGLE, 3)) for i in range(n)])
     # Each cell has points of its own: those at one place are one.
-    _, place = np.unique(np.round(x / max(np.ptp(x, axis=0).max(), 1e-300), 7), axis=0, return_inverse=True)
-    _, first, count = np.unique(np.sort(place.reshape(-1)[edges], axis=1), axis=0, return_index=True, return_counts=True)
-    return (x + displacement)[edges[first[count == 1]]]
+    scaled = x / max(np.ptp(x, axis=0).max(), 1e-300)
+    known, place = np.unique(np.round(scaled, 7), axis=0, return_inverse=True)
+    ends, first, count = np.unique(np.sort(place.reshape(-1)[edges], axis=1), axis=0, return_index=True, return_counts=True)
+    single = {tuple(pair): index for pair, index in zip(ends[count == 1].tolist(), first[count == 1].tolist())}
+    # At a hanging node one edge of a cell and its halves, of two others, are inside.
+    nodes = np.unique(list(single)).astype(int)
+    for a, b in list(single):
+        off = np.abs(known[nodes] - 0.5 * (known[a] + known[b])).max(axis=1)
+        middle = int(nodes[off.argmin()])
+        halves = [tuple(sorted((end, middle))) for end in (a, b)]
+        if off.min() < 1e-6 and all(half in single for half in halves):
+            for edge in ((a, b), *halves):
+                del single[edge]
+    return (x + displacement)[edges[list(single.values())]] if single else np.empty((0, 2, 3))
 
 
 def triangles(arrays):

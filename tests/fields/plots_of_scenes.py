@@ -85,7 +85,7 @@ def check_shapes():
     lines = max(panel.collections, key=lambda lines: lines.get_array() is not None)
     (_, _, arrays), = plot.last_fields(results, "body")
     close("tension of the cable", lines.get_array(), arrays["tension"][arrays["connectivity"].reshape(-1, 2)].mean(axis=1))
-    close("its shape", np.array(lines.get_segments()).reshape(-1, 2), arrays["positions"][arrays["connectivity"]][:, :2])
+    close("its shape", np.array(lines.get_segments()).reshape(-1, 2), (arrays["positions"] + arrays["displacement"])[arrays["connectivity"]][:, :2])
     film = program(path, "--film", "gif", "--plots", "sketch", "--format", "png")
     expect("no film of one field", "no film: fields of wires or bodies at two times" in film.stdout, film.stdout + film.stderr)
 
@@ -97,6 +97,11 @@ def check_solids():
                      "connectivity": np.arange(8), "offsets": np.array([4, 8])})
     close("edges of two squares", [len(edges), *edges.reshape(-1, 3).max(axis=0)], [6, 2, 1, 0])
     membrane = {"positions": square, "types": np.array([9]), "connectivity": np.arange(4), "offsets": np.array([4])}
+    # A cell beside two of half its size: the edge between them is inside.
+    half = 0.5 * square
+    hanging = outline({"positions": np.concatenate([square, half + [1, 0, 0], half + [1, 0.5, 0]]), "types": np.array([9, 9, 9]),
+                       "offsets": np.array([4, 8, 12]), "connectivity": np.arange(12)})
+    close("length of an outline with a hanging node", np.linalg.norm(hanging[:, 1] - hanging[:, 0], axis=1).sum(), 5)
     expect("no outline of a membrane, which moves across its plane", outline({**membrane, "displacement": np.ones(4)}) is None)
     close("an outline moves", outline({**membrane, "displacement": square}).reshape(-1, 3).max(axis=0), [2, 2, 0])
     expect("no edge inside", not any((edge[:, 0] == 1).all() for edge in edges))

@@ -50,7 +50,8 @@ for page in pages:
                 errors.append(f"{page}:{number}: '{link}': there is no such file")
             elif anchor and anchor not in anchors(target):
                 errors.append(f"{page}:{number}: '{link}': there is no such heading")
-            reached.add(target)
+            if target != page:
+                reached.add(target)
 errors += [f"{page}: no page leads there" for page in pages[1:] if page not in reached]
 print(len(pages), "pages,", n_links, "links")
 if n_links == 0:
