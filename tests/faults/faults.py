@@ -61,7 +61,7 @@ def damages(found, reference, before):
         elif stem.endswith(".pvd"):
             try:
                 shown = {entry.get("file") for entry in xml.etree.ElementTree.fromstring(data).iter("DataSet")}
-                if all(f"results/{frame}" in found for frame in shown):
+                if all(f"{name.rpartition('/')[0]}/{frame}" in found for frame in shown):
                     continue
             except xml.etree.ElementTree.ParseError:
                 pass

@@ -181,7 +181,7 @@ def check_killed(name):
     """A run that is killed leaves collections that name complete files."""
     folder = arguments.results / f"{name}_killed"
     shutil.rmtree(folder, ignore_errors=True)
-    command = [arguments.program, arguments.root / "prm" / f"{scene or name}.prm", "--set", f"Output/Folder={folder}",
+    command = [arguments.program, arguments.root / "prm" / f"{name}.prm", "--set", f"Output/Folder={folder}",
                "--set", "Output/Field interval=0.001"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     while process.poll() is None and not (folder / "fields/links_00003.vtu").exists():

@@ -85,7 +85,7 @@ def check_shapes():
     lines = max(panel.collections, key=lambda lines: lines.get_array() is not None)
     (_, _, arrays), = plot.last_fields(results, "body")
     close("tension of the cable", lines.get_array(), arrays["tension"][arrays["connectivity"].reshape(-1, 2)].mean(axis=1))
-    close("its shape", np.array(lines.get_segments()).reshape(-1, 2), (arrays["positions"] + arrays["displacement"])[arrays["connectivity"]][:, :2])
+    close("its shape", np.array(lines.get_segments()).reshape(-1, 2), (arrays["positions"].astype(float) + arrays["displacement"])[arrays["connectivity"]][:, :2])
     film = program(path, "--film", "gif", "--plots", "sketch", "--format", "png")
     expect("no film of one field", "no film: fields of wires or bodies at two times" in film.stdout, film.stdout + film.stderr)
 

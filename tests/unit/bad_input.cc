@@ -287,7 +287,7 @@ TEST_F(BadInput, EachMistakeIsNamedWithItsPlaceAndRemedy)
     if (std::getenv("TAUT_PRINT_MESSAGES"))
       std::printf("%s\n  %s\n", c.name.c_str(), message.c_str());
   }
-  EXPECT_EQ(names.size(), 242u);
+  EXPECT_EQ(names.size(), 243u);
 }
 
 TEST_F(BadInput, FilesThatCannotBeRead)
