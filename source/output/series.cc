@@ -39,8 +39,7 @@ namespace taut
         {&sliding, "/sliding"}, {&links, "/links"}, {&supports, "/supports"}, {&probes, "/probes"}};
     for (const auto &[table, name] : tables)
       if (table == &links && has_long_links && !links.is_empty())
-        links.open_long(run.folder + name, {"force [N or N m]", "gap [m or rad]"},
-                        run.resumes);
+        links.open_long(run.folder + name, {"force [N or N m]", "gap [m or rad]"}, run.resumes);
       else if (!table->is_empty())
         table->open(format, run.folder + name, run.resumes);
     const std::vector<std::string> columns = {"time [s]",

@@ -203,8 +203,8 @@ TEST(Statistics, forces_that_cannot_be_filtered_are_not_judged)
   EXPECT_EQ(none.json["verdict"], "inside");
 }
 
-// Claim: statistics.json says what it is of, and value and range are in one unit, of SI. Expected: the
-// entries of the file.
+// Claim: statistics.json says what it is of, and value and range are in one unit, of SI. Expected:
+// the entries of the file.
 TEST(Statistics, the_run_is_named_and_ranges_have_the_unit_of_the_value)
 {
   const Said said = say(scene, {"Statistics.Expected ranges.Uplift=0, 50",
