@@ -33,7 +33,7 @@ def anchors(page):
 
 
 errors, n_links, reached = [], 0, set()
-pages = [root / "README.md", *sorted((root / "doc").rglob("*.md"))]
+pages = [root / "README.md", root / "prm" / "README.md", *sorted((root / "doc").rglob("*.md"))]
 for page in pages:
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         found = HISTORY.search(line)
