@@ -169,9 +169,9 @@ namespace taut
       used << "# " << comment << '\n';
     parameters.print(used);
     copy_data_files(data_files(), folder.string());
+    replace_file(used_file, whole_text(used));
     if (!original.empty())
       write_file((folder / "original.prm").string(), original);
-    replace_file(used_file, whole_text(used));
   }
 
   void check_results_folder(const Parameters &parameters, const Communicator &processes)
