@@ -79,7 +79,7 @@ namespace taut
    * Dual basis: B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000). Segments: M. A. Puso, T. A.
    * Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004); A. Popp, M. W. Gee, W. A. Wall, Int. J.
    * Numer. Meth. Engng 79 (2009). Faces covered in part: T. Cichosz, M. Bischoff, Comput. Methods
-   * Appl. Mech. Engrg. 200 (2011). See also doc/theory.md, Contact surfaces.
+   * Appl. Mech. Engrg. 200 (2011). See also doc/theory_of_contact.md, Contact surfaces.
    */
   std::vector<SurfaceConstraint>
   mortar_constraints(const ContactSurface &slave, const ContactSurface &master,
