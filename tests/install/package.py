@@ -12,7 +12,7 @@ import tempfile
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--build", type=pathlib.Path, required=True, help="build folder of Taut")
 arguments = parser.parse_args()
-for tool in ("cpack", "dpkg-deb", "dpkg-shlibdeps"):
+for tool in ("cpack", "dpkg-deb", "dpkg-shlibdeps", "file"):
     if not shutil.which(tool):
         print(f"skipped: there is no {tool}")
         sys.exit(77)
