@@ -29,6 +29,7 @@ install(PROGRAMS source/plot/taut-plot source/plot/show_in_paraview.py DESTINATI
 install(DIRECTORY source/plot/ DESTINATION ${CMAKE_INSTALL_BINDIR} FILES_MATCHING PATTERN "taut_plot_*.py")
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm" PATTERN "*.csv")
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES prm/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/prm)
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 # Where the links of README.md find it.
