@@ -94,6 +94,20 @@ namespace
   }
 } // namespace
 
+// Eight steps in a period are too few to see a base. A base that hardly moves the mass, by 25 um of
+// 50 mm, needs no warning: shorter steps give the same motion. One at resonance keeps it.
+TEST(UnseenFeatures, are_said_where_steps_that_see_them_give_another_motion)
+{
+  const std::string unseen = "which steps of";
+  const std::string weak =
+      log_of(shaken_mass("1e-3*sin(2*pi*t/8e-3)"), {"Network.Mass m.Initial velocity=0, 1, 0"});
+  EXPECT_FALSE(has(weak, unseen)) << weak;
+  EXPECT_TRUE(has(weak, "from runs with other steps")) << weak;
+  const std::string strong =
+      log_of(shaken_mass("1e-3*sin(20*t)"), {"Time.Step=0.039", "Time.End=3.9"});
+  EXPECT_TRUE(has(strong, unseen)) << strong;
+}
+
 // 0.2 N s on 1 kg and 400 N/m: 10 mm. Steps of 1 ms see half or all of 1 N s.
 TEST(UnseenFeatures, pulse_on_a_mass_at_rest)
 {
