@@ -108,7 +108,10 @@ namespace taut
       travelling.emplace(*product, wire_length, begin, end, (end - begin) / elements.size());
     }
     else if (!stands)
+    {
       find_standing_details();
+      smooth.emplace(magnitude, elements, forces, n_dofs, dofs_between);
+    }
   }
 
   void WireComponent::DistributedLoad::find_standing_details()
@@ -206,10 +209,19 @@ namespace taut
   void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const
   {
     if (travelling)
-    {
       add_shapes(t, P);
-      return;
+    else if (smooth && smooth->covers(t))
+    {
+      TypicalLoad typical(magnitude, wire_length, t);
+      smooth->add(t, P,
+                  [&](const std::size_t e) { add_to(P, e, over(elements[e], t, typical).values); });
     }
+    else
+      add_elements(t, P);
+  }
+
+  void WireComponent::DistributedLoad::add_elements(const double t, std::vector<double> &P) const
+  {
     WidthCheck check(*this, t);
     TypicalLoad typical(magnitude, wire_length, t);
     for (std::size_t e = 0; e < elements.size(); ++e)

@@ -3,6 +3,7 @@
 #define taut_distributed_load_h
 
 #include "wire/element_load.h"
+#include "wire/smooth_load.h"
 #include "wire/travelling_load.h"
 
 #include <taut/wire/wire_component.h>
@@ -15,10 +16,11 @@
 namespace taut
 {
   /**
-   * A force per length f(s, t), integrated at each call over each element, see LoadIntegral, or by
-   * its shapes where they travel, see TravellingLoad.
+   * A force per length f(s, t), integrated at each call: by its shapes where they travel, see
+   * TravellingLoad; by panels of elements where it is smooth, see SmoothLoad; elsewhere over each
+   * element, see LoadIntegral.
    *
-   * For another load that changes with time an element is looked at in one piece, so that it has to
+   * There an element is looked at in one piece for a load that changes with time, so that it has to
    * be as wide as this piece sees if it moves; a narrower moving load throws EntryError. A narrower
    * load at rest is found at the set-up, at a few times. Its elements are looked at in fine pieces
    * from then on.
@@ -40,6 +42,7 @@ namespace taut
 
     ElementLoad over(const Element &element, double t, TypicalLoad &typical) const;
     void find_standing_details();
+    void add_elements(double t, std::vector<double> &P) const;
     void add_shapes(double t, std::vector<double> &P) const;
     void add_to(std::vector<double> &P, std::size_t element,
                 const ElementLoad::Values &values) const;
@@ -52,6 +55,7 @@ namespace taut
     unsigned int n_dofs, dofs_between; ///< of an element, and from one to the next
     std::vector<double> forces;        ///< on the DoFs by unit values at each Gauss point
     std::optional<TravellingLoad> travelling;
+    std::optional<SmoothLoad> smooth;
   };
 } // namespace taut
 

@@ -87,6 +87,10 @@ namespace taut
     /// The same for an element that keeps its values at Gauss points.
     static constexpr double kept = .5 * tolerance;
 
+    /// Error of a polynomial in its place, over the largest value near it, or over this part of the
+    /// largest value on the wire.
+    static constexpr double of_polynomial = .1 * tolerance, least_part = 1e-3;
+
     /// With one initial piece a detail of a fifth of an element is seen anywhere; with fine pieces
     /// a detail of a sixty-fourth.
     static constexpr unsigned int fine_pieces = 12;

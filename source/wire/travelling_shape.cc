@@ -37,9 +37,8 @@ namespace taut
     /// A load below this is zero: errors of it have no digits [N/m].
     constexpr double no_load = 1e-290;
 
-    /// Error of a polynomial over the largest value in its bin, or a thousandth of the largest at
-    /// the start: a tenth of what LoadIntegral promises. A piece below this error is zero.
-    constexpr double tolerance = .1 * LoadIntegral::tolerance, least_part = 1e-3;
+    /// Error of a polynomial over the largest value in its bin. A piece below this error is zero.
+    constexpr double tolerance = LoadIntegral::of_polynomial;
 
     /// Farther off, the number of a bin has no digits for a place in it.
     constexpr double most_bins = 1e9;
@@ -134,7 +133,7 @@ namespace taut
     try
     {
       evaluate(bin, samples, sampled);
-      const double most = std::max(largest_of(sampled), least_part * largest);
+      const double most = std::max(largest_of(sampled), LoadIntegral::least_part * largest);
       if (most < no_load)
         result.pieces.push_back({0., 1., 0., true, {}});
       result.is_known = most < no_load || resolve(bin, 0., 1., most, result);

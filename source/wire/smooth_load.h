@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_smooth_load_h
+#define taut_smooth_load_h
+
+#include "wire/element_load.h"
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * A smooth force per length q(s, t) as polynomials on panels of 8 to 64 elements. In each step
+   * the formula is evaluated at the Chebyshev points of the panels, and compared with the
+   * polynomials at some further places, which change from step to step. A panel where they differ
+   * is left to the caller.
+   *
+   * Panels are chosen for windows of time, each four times as long as all before it. At a few times
+   * of the window the load is looked at in each element. A load that is not smooth on eight
+   * elements at one of them is not smooth in this window. What a time gets depends on it alone, not
+   * on earlier calls. As long as a window lasts nothing is allocated.
+   */
+  class SmoothLoad
+  {
+  public:
+    using Elements = std::vector<LoadedElement>;
+
+    /// @p forces: on the @p n_dofs DoFs of each element by unit values at each of its Gauss points;
+    /// from one element to the next it is @p dofs_between DoFs. All are kept by reference.
+    SmoothLoad(const Expression &magnitude, const Elements &elements,
+               const std::vector<double> &forces, unsigned int n_dofs, unsigned int dofs_between);
+
+    /// Whether the load is smooth at the time t [s] and those near it.
+    bool covers(double t) const;
+
+    /// Adds the forces of the panels that are resolved at the time t, for which covers() holds;
+    /// calls @p other for each element of the others.
+    void add(double t, std::vector<double> &P,
+             const std::function<void(std::size_t element)> &other) const;
+
+  private:
+    struct Panel;
+    class Look;
+
+    void choose(double t) const;
+    bool split(std::size_t first, std::size_t last, const std::vector<Look> &looks) const;
+    Panel panel(std::size_t first, std::size_t last) const;
+
+    Expression magnitude;
+    const Elements &elements;
+    const std::vector<double> &forces;
+    unsigned int n_dofs, dofs_between;
+
+    mutable int window;
+    mutable bool is_smooth = false;
+    mutable std::vector<Panel> panels;
+    mutable std::vector<double> places, values; ///< nodes of all panels, then their other places
+  };
+
+  struct SmoothLoad::Panel
+  {
+    std::size_t first, last;    ///< its elements, the last one excluded
+    double begin, length;       ///< [m]
+    std::vector<double> matrix; ///< forces on the DoFs by unit values at each node
+  };
+} // namespace taut
+
+#endif
