@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <set>
 #include <utility>
 
 namespace taut
@@ -295,5 +296,23 @@ namespace taut
       for (const Piece &term : split_at(formula, "+-"))
         add_term(term, true, result);
     return result;
+  }
+
+  bool is_smooth(const std::string &formula)
+  {
+    static const std::set<std::string> smooth = {
+        "s",     "t",    "x",    "y",    "z",    "d",     "pi",    "sin",   "cos",  "tan", "asin",
+        "acos",  "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "log2", "log", "ln",
+        "log10", "exp",  "sqrt", "cot",  "csc",  "sec",   "pow",   "erf",   "erfc"};
+    static const std::string operators = "+-*/^(), \t";
+    for (std::size_t i = 0, end = 0; i < formula.size(); i = end)
+    {
+      end = end_of_token(formula, i);
+      const std::string token = formula.substr(i, end - i);
+      const bool is_number = std::isdigit(static_cast<unsigned char>(token[0])) || token[0] == '.';
+      if (!is_number && operators.find(token) == std::string::npos && smooth.count(token) == 0)
+        return false;
+    }
+    return true;
   }
 } // namespace taut

@@ -35,6 +35,10 @@ namespace taut
   /// compared or chosen at the outermost level is one term. A factor travels if it has s
   /// and t in linear sums of s alone, all of them multiples of one, as (s - 20*t - 100) / (30 + t).
   FormulaTerms terms_of(const std::string &formula);
+
+  /// Whether a formula is written with functions alone that have all derivatives wherever they have
+  /// a value: without comparisons, choices, absolute and rounded values, and tables.
+  bool is_smooth(const std::string &formula);
 } // namespace taut
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/instruction_set.h"
 #include "base/text.h"
+#include "scene/formula_terms.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -110,7 +111,8 @@ namespace taut
     else if (!stands)
     {
       find_standing_details();
-      smooth.emplace(magnitude, elements, forces, n_dofs, dofs_between);
+      if (is_smooth(magnitude.formula()))
+        smooth.emplace(magnitude, elements, forces, n_dofs, dofs_between);
     }
   }
 

@@ -13,47 +13,56 @@ namespace taut
 {
   namespace
   {
-    constexpr std::size_t most_elements = 64, least_elements = 8;
+    constexpr std::size_t most_elements = 64, least_elements = 4;
 
     /// Chebyshev points of a panel, and places where its polynomial is compared with the formula in
     /// each step.
-    constexpr unsigned int n_chebyshev = 12, n_compared = 8;
+    constexpr unsigned int n_chebyshev = 12, n_compared = 4;
 
     /// Times of a window at which the load is looked at in each element.
-    constexpr unsigned int n_looks = 4;
+    constexpr unsigned int n_looks = 8;
     constexpr int no_window = std::numeric_limits<int>::min();
 
     using Weights = std::array<double, n_chebyshev>;
 
-    /// The Chebyshev points of the first kind on (0, 1).
-    const Weights &chebyshev_points()
+    /// The Chebyshev points of the first kind on (0, 1), and their barycentric weights: Berrut and
+    /// Trefethen, SIAM Review 46 (2004), p. 501.
+    struct ChebyshevPoints
     {
-      static const Weights result = []
+      ChebyshevPoints()
       {
-        Weights points;
         for (unsigned int k = 0; k < n_chebyshev; ++k)
-          points[k] = .5 - .5 * std::cos(M_PI * (k + .5) / n_chebyshev);
-        return points;
-      }();
+        {
+          const double angle = M_PI * (k + .5) / n_chebyshev;
+          points[k] = .5 - .5 * std::cos(angle);
+          weights[k] = k % 2 ? -std::sin(angle) : std::sin(angle);
+        }
+      }
+      Weights points, weights;
+    };
+
+    const ChebyshevPoints &chebyshev()
+    {
+      static const ChebyshevPoints result;
       return result;
     }
 
-    /// Of the values at the nodes in the value at u, by the barycentric formula: Berrut and
-    /// Trefethen, SIAM Review 46 (2004), p. 501.
+    /// Of the values at the Chebyshev points in the value at u.
     Weights weights_at(const double u)
     {
+      const ChebyshevPoints &of = chebyshev();
       Weights result;
       double sum = 0.;
       for (unsigned int k = 0; k < n_chebyshev; ++k)
       {
-        const double from_node = u - chebyshev_points()[k];
-        if (from_node == 0.)
+        const double from_point = u - of.points[k];
+        if (from_point == 0.)
         {
           result.fill(0.);
           result[k] = 1.;
           return result;
         }
-        result[k] = (k % 2 ? -1. : 1.) * std::sin(M_PI * (k + .5) / n_chebyshev) / from_node;
+        result[k] = of.weights[k] / from_point;
         sum += result[k];
       }
       for (double &weight : result)
@@ -79,55 +88,54 @@ namespace taut
 
     int window_of(const double t)
     {
-      return t == 0. ? no_window + 1 : std::ilogb(t) >> 1;
+      return t == 0. ? no_window + 1 : std::ilogb(t);
     }
   } // namespace
 
-  /// The load at the Gauss points of all elements, at one time.
+  /// The load in all elements, at one time.
   class SmoothLoad::Look
   {
   public:
-    static constexpr unsigned int n_points = LoadedElement::n_points;
-
-    Look(const SmoothLoad &load, const double t)
-        : load(load), t(t), values(load.elements.size() * n_points)
+    /// At one Gauss point of each, which changes from element to element.
+    Look(const SmoothLoad &load, const double t, const unsigned int first_point)
+        : load(load), t(t), first_point(first_point), values(load.elements.size())
     {
-      std::vector<double> places;
-      places.reserve(values.size());
-      for (const LoadedElement &element : load.elements)
-        places.insert(places.end(), element.places.begin(), element.places.end());
+      std::vector<double> places(values.size());
+      for (std::size_t e = 0; e < places.size(); ++e)
+        places[e] = load.elements[e].places[point_of(e)];
       load.magnitude.evaluate(places, t, values);
       largest = largest_of(values.data(), values.size());
     }
 
-    bool resolves(const Panel &panel) const
+    /// By a polynomial, with the @p weights of its values at all Gauss points of the panel.
+    bool resolves(const Panel &panel, const std::vector<Weights> &weights) const
     {
-      std::vector<double> places, at_nodes(n_chebyshev);
-      for (const double u : chebyshev_points())
+      std::vector<double> places, at_points(n_chebyshev);
+      for (const double u : chebyshev().points)
         places.push_back(panel.begin + panel.length * u);
-      load.magnitude.evaluate(places, t, at_nodes);
-      const double *const own = &values[panel.first * n_points];
-      const std::size_t n = (panel.last - panel.first) * n_points;
+      load.magnitude.evaluate(places, t, at_points);
       const double accepted =
           LoadIntegral::of_polynomial *
-          std::max({largest_of(own, n), largest_of(at_nodes.data(), n_chebyshev),
-                    LoadIntegral::least_part * largest});
+          std::max({largest_of(&values[panel.first], panel.last - panel.first),
+                    largest_of(at_points.data(), n_chebyshev), LoadIntegral::least_part * largest});
       for (std::size_t e = panel.first; e < panel.last; ++e)
-        for (unsigned int q = 0; q < n_points; ++q)
-        {
-          const double s = load.elements[e].places[q],
-                       error =
-                           value_of(weights_at((s - panel.begin) / panel.length), at_nodes.data()) -
-                           values[e * n_points + q];
-          if (!(std::fabs(error) <= accepted))
-            return false;
-        }
+      {
+        const Weights &own = weights[(e - panel.first) * LoadedElement::n_points + point_of(e)];
+        if (!(std::fabs(value_of(own, at_points.data()) - values[e]) <= accepted))
+          return false;
+      }
       return true;
     }
 
   private:
+    unsigned int point_of(const std::size_t element) const
+    {
+      return (element + first_point) % LoadedElement::n_points;
+    }
+
     const SmoothLoad &load;
     double t, largest;
+    unsigned int first_point;
     std::vector<double> values;
   };
 
@@ -155,11 +163,11 @@ namespace taut
     panels.clear();
     is_smooth = false;
     std::vector<Look> looks;
-    const double begin = t == 0. ? 0. : std::copysign(std::ldexp(1., 2 * window), t);
+    const double begin = t == 0. ? 0. : std::copysign(std::ldexp(1., window), t);
     for (unsigned int k = 0; k < n_looks; ++k)
       try
       {
-        looks.emplace_back(*this, begin * (1. + 3. * (k + .5) / n_looks));
+        looks.emplace_back(*this, begin * (1. + (k + .5) / n_looks), k);
       }
       catch (const UserError &)
       {
@@ -173,7 +181,7 @@ namespace taut
     values.resize(places.size());
     auto place = places.begin();
     for (const Panel &panel : panels)
-      for (const double u : chebyshev_points())
+      for (const double u : chebyshev().points)
         *place++ = panel.begin + panel.length * u;
     is_smooth = true;
   }
@@ -183,34 +191,30 @@ namespace taut
   {
     if (last - first < least_elements)
       return false;
-    Panel own = panel(first, last);
-    if (std::all_of(looks.begin(), looks.end(),
-                    [&](const Look &look) { return look.resolves(own); }))
-    {
-      panels.push_back(std::move(own));
-      return true;
-    }
-    const std::size_t middle = (first + last) / 2;
-    return split(first, middle, looks) && split(middle, last, looks);
-  }
-
-  SmoothLoad::Panel SmoothLoad::panel(const std::size_t first, const std::size_t last) const
-  {
-    constexpr unsigned int n_points = LoadedElement::n_points;
-    Panel result{first, last, elements[first].begin, 0., {}};
-    result.length = elements[last - 1].begin + elements[last - 1].length - result.begin;
-    const std::size_t n_own = (last - first - 1) * dofs_between + n_dofs;
-    result.matrix.assign(n_own * n_chebyshev, 0.);
+    Panel panel{first, last, elements[first].begin, 0., {}};
+    panel.length = elements[last - 1].begin + elements[last - 1].length - panel.begin;
+    std::vector<Weights> weights;
+    weights.reserve((last - first) * LoadedElement::n_points);
     for (std::size_t e = first; e < last; ++e)
-      for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const Weights weights = weights_at((elements[e].places[q] - result.begin) / result.length);
-        for (unsigned int i = 0; i < n_dofs; ++i)
-          for (unsigned int k = 0; k < n_chebyshev; ++k)
-            result.matrix[((e - first) * dofs_between + i) * n_chebyshev + k] +=
-                forces[(e * n_points + q) * n_dofs + i] * weights[k];
-      }
-    return result;
+      for (const double s : elements[e].places)
+        weights.push_back(weights_at((s - panel.begin) / panel.length));
+    if (!std::all_of(looks.begin(), looks.end(),
+                     [&](const Look &look) { return look.resolves(panel, weights); }))
+    {
+      const std::size_t middle = (first + last) / 2;
+      return split(first, middle, looks) && split(middle, last, looks);
+    }
+    panel.matrix.assign(((last - first - 1) * dofs_between + n_dofs) * n_chebyshev, 0.);
+    const double *force = &forces[first * LoadedElement::n_points * n_dofs];
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      double *row = &panel.matrix[i / LoadedElement::n_points * dofs_between * n_chebyshev];
+      for (unsigned int j = 0; j < n_dofs; ++j, ++force, row += n_chebyshev)
+        for (unsigned int k = 0; k < n_chebyshev; ++k)
+          row[k] += *force * weights[i][k];
+    }
+    panels.push_back(std::move(panel));
+    return true;
   }
 
   void SmoothLoad::add(const double t, std::vector<double> &P,

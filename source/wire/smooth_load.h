@@ -11,15 +11,15 @@
 namespace taut
 {
   /**
-   * A smooth force per length q(s, t) as polynomials on panels of 8 to 64 elements. In each step
+   * A smooth force per length q(s, t) as polynomials on panels of 4 to 64 elements. In each step
    * the formula is evaluated at the Chebyshev points of the panels, and compared with the
    * polynomials at some further places, which change from step to step. A panel where they differ
    * is left to the caller.
    *
-   * Panels are chosen for windows of time, each four times as long as all before it. At a few times
-   * of the window the load is looked at in each element. A load that is not smooth on eight
-   * elements at one of them is not smooth in this window. What a time gets depends on it alone, not
-   * on earlier calls. As long as a window lasts nothing is allocated.
+   * Panels are chosen for windows of time, each as long as all before it. At a few times of the
+   * window the load is looked at in each element. A load that is not smooth on four elements at one
+   * of them is not smooth in this window. What a time gets depends on it alone, not on earlier
+   * calls. As long as a window lasts nothing is allocated.
    */
   class SmoothLoad
   {
@@ -45,7 +45,6 @@ namespace taut
 
     void choose(double t) const;
     bool split(std::size_t first, std::size_t last, const std::vector<Look> &looks) const;
-    Panel panel(std::size_t first, std::size_t last) const;
 
     Expression magnitude;
     const Elements &elements;

@@ -2,7 +2,8 @@
 // Claim: sum and first moment of a load along a wire are those of its formula to 1e-6 of the
 // integral of its absolute value, also of loads narrower than an element, with jumps, and of pulses
 // that move; where four Gauss points an element give as much, the forces are theirs to the bit.
-// Sources: closed forms of the integrals of blocks and waves; the Gauss rule, computed here.
+// A smooth one that mixes s and t in any way is that of the Gauss rule to 1e-6 of its largest
+// force. Sources: closed forms of the integrals of blocks and waves; the Gauss rule, computed here.
 #include "scene_tests.h"
 
 #include "base/dot.h"
@@ -290,8 +291,36 @@ TEST(DistributedLoads, moments_turn)
   EXPECT_NEAR(wire.moment(), 3. * 7.25, 3. * 7.25 * bound);
 }
 
-// The same formula with a factor of 1 that is no function of a sum a(t)*s + b(t) is integrated
-// element by element.
+// By panels of elements; a wave that grows shorter is integrated by elements where no panel
+// resolves it.
+TEST(DistributedLoads, smooth_ones_that_mix_place_and_time_are_those_of_gauss_points)
+{
+  for (const std::string &kind : kinds)
+    for (const std::string formula :
+         {"3*exp(-((s-7*t-2)/(12+.1*s*t))^2)", "sin(.2*s*(1+.2*t))*sin(.05*s*t)",
+          "2+cos(.1*sqrt(s^2+40)-t)", "5*exp(-(s-10.5)^2/(9+s*t))", "sin(s*t)",
+          "exp(-((sqrt(s^2+9)-5*t)/2)^2)"})
+    {
+      LoadedWire wire(kind, formula);
+      const taut::Wire own = wire_of(kind);
+      const taut::Expression q(formula, "load");
+      double difference = 0., most = 0.;
+      for (double t = 0.; t < 2.; t += .031)
+      {
+        wire.force(t);
+        const std::vector<double> P = by_gauss_points(*wire.body, own, q, t);
+        raise(difference, verification::largest_difference(wire.P, P));
+        raise(most, verification::largest(P));
+      }
+      SCOPED_TRACE(kind + ", " + formula);
+      EXPECT_LE(figure("smooth load, panels and Gauss points, " + formula, difference / most),
+                bound);
+      EXPECT_TRUE(difference > 0.) << "panels are not used";
+    }
+}
+
+// The same formula with a factor of 1 that is no function of a sum a(t)*s + b(t) is integrated by
+// panels of elements where it is smooth, and element by element elsewhere.
 TEST(DistributedLoads, loads_by_shapes_and_by_products_are_those_by_elements)
 {
   for (const std::string &kind : kinds)
