@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/interface_preconditioner.h"
+#include "base/gather_entries.h"
 #include "base/pivots.h"
 
 #include <taut/base/exceptions.h>
@@ -7,6 +8,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace taut
@@ -43,18 +45,23 @@ namespace taut
     for (std::size_t i = 0; i < active.size(); ++i)
       other[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
     own = other;
-    if (is_diagonal)
-      return;
-    T.setup(active, is_changed);
-    add_springs(active, diagonal, compliance);
     own_rows.reset();
+    if (is_diagonal)
+    {
+      kept = rows.owned();
+      return;
+    }
+    set_stiffness(active, diagonal, compliance);
+    T.setup(active, is_changed, has_springs);
+    if (has_springs)
+      add_springs();
     set_scaling(rows);
   }
 
-  /// The elastic rows as springs between the DoFs, and the factor of T with them.
-  void InterfacePreconditioner::add_springs(const std::vector<char> &active,
-                                            const std::vector<double> &diagonal,
-                                            const std::vector<double> &compliance)
+  /// Which rows are elastic.
+  void InterfacePreconditioner::set_stiffness(const std::vector<char> &active,
+                                              const std::vector<double> &diagonal,
+                                              const std::vector<double> &compliance)
   {
     has_springs = false;
     stiffness.assign(active.size(), 0.);
@@ -64,9 +71,12 @@ namespace taut
         stiffness[i] = 1. / compliance[i];
         has_springs = true;
       }
+  }
+
+  /// The elastic rows as springs between the DoFs, and the factor of T with them.
+  void InterfacePreconditioner::add_springs()
+  {
     T.add_springs(stiffness);
-    if (!has_springs)
-      return;
     SymmetricEntries shifted = T.entries();
     std::vector<char> has_diagonal(T.n_dofs(), 0);
     for (std::size_t e = 0; e < shifted.size(); ++e)
@@ -84,6 +94,7 @@ namespace taut
   /// Computes D^-1 B_r, and Q from rows with a common DoF.
   void InterfacePreconditioner::set_scaling(const RowMap &rows)
   {
+    const bool is_shared = rows.communicator().size() > 1 && !has_springs;
     const MatrixEntries &B = T.constraints();
     const std::vector<double> D = T.diagonal();
     scaled_B = B;
@@ -95,16 +106,21 @@ namespace taut
       if (scaled_B.value[e] != 0.)
         at_dof[B.column[e]].push_back(e);
     }
+    SymmetricEntries products;
+    for (const auto &at : at_dof)
+      for (std::size_t a = 0; a < at.size(); ++a)
+        for (std::size_t b = 0; b <= a; ++b)
+          products.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
+    if (is_shared)
+      gather(rows.communicator(), products);
     SymmetricEntries entries;
     std::vector<double> diagonal(other.size(), 0.);
     is_rigid.assign(other.size(), 0);
-    for (const auto &at : at_dof)
-      for (std::size_t a = 0; a < at.size(); ++a)
-      {
-        for (std::size_t b = 0; b < a; ++b)
-          entries.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
-        diagonal[B.row[at[a]]] += scaled_B.value[at[a]] * B.value[at[a]];
-      }
+    for (std::size_t e = 0; e < products.size(); ++e)
+      if (products.row[e] == products.column[e])
+        diagonal[products.row[e]] += products.value[e];
+      else
+        entries.add(products.row[e], products.column[e], products.value[e]);
     for (std::size_t i = 0; i < diagonal.size(); ++i)
     {
       // Q is singular for dependent rigid constraints.
@@ -114,63 +130,66 @@ namespace taut
         other[i] = 0.;
       own[i] = stiffness[i] == 0. ? other[i] : 0.;
     }
+    if (is_shared)
+      keep_own_rows(rows, entries);
+    else
+    {
+      kept.resize(diagonal.size());
+      std::iota(kept.begin(), kept.end(), std::size_t(0));
+    }
     entries.compress();
-    Q.factor(diagonal.size(), entries, 0.);
-    if (rows.communicator().size() > 1 && !has_springs)
-      set_own_rows(rows, entries);
+    rows.communicator().agree([&] { Q.factor(kept.size(), entries, 0.); });
   }
 
-  /// The blocks of Q that the bodies of this rank see.
-  void InterfacePreconditioner::set_own_rows(const RowMap &rows, const SymmetricEntries &Q_entries)
+  /// Keeps the blocks of Q that the bodies of this rank see, in @p entries and D^-1 B_r.
+  void InterfacePreconditioner::keep_own_rows(const RowMap &rows, SymmetricEntries &entries)
   {
-    const std::size_t first = T.first_own_dof(), end = first + T.n_own_dofs();
     boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
-    for (std::size_t e = 0; e < Q_entries.size(); ++e)
-      blocks.union_set(static_cast<std::size_t>(Q_entries.row[e]),
-                       static_cast<std::size_t>(Q_entries.column[e]));
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      blocks.union_set(static_cast<std::size_t>(entries.row[e]),
+                       static_cast<std::size_t>(entries.column[e]));
     std::vector<char> is_seen(is_rigid.size(), 0);
     for (const std::size_t i : rows.owned())
       is_seen[blocks.find_set(i)] = 1;
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      if (scaled_B.value[e] != 0. && static_cast<std::size_t>(scaled_B.column[e]) >= first &&
-          static_cast<std::size_t>(scaled_B.column[e]) < end)
+      if (scaled_B.value[e] != 0.)
         is_seen[blocks.find_set(static_cast<std::size_t>(scaled_B.row[e]))] = 1;
-    std::vector<std::size_t> held, position(is_rigid.size(), 0);
+    kept.clear();
+    std::vector<std::size_t> position(is_rigid.size(), 0);
     for (std::size_t i = 0; i < is_rigid.size(); ++i)
       if (is_seen[blocks.find_set(i)])
       {
-        position[i] = held.size();
-        held.push_back(i);
+        position[i] = kept.size();
+        kept.push_back(i);
       }
-    own_B = {};
+    MatrixEntries of_B;
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      if (const std::size_t dof = scaled_B.column[e];
-          scaled_B.value[e] != 0. && dof >= first && dof < end)
-        own_B.add(position[scaled_B.row[e]], dof - first, scaled_B.value[e]);
-    SymmetricEntries of_held;
-    for (std::size_t e = 0; e < Q_entries.size(); ++e)
-      if (is_seen[blocks.find_set(static_cast<std::size_t>(Q_entries.row[e]))])
-        of_held.add(position[Q_entries.row[e]], position[Q_entries.column[e]], Q_entries.value[e]);
-    of_held.compress();
-    rows.communicator().agree([&] { own_Q.factor(held.size(), of_held, 0.); });
+      if (scaled_B.value[e] != 0.)
+        of_B.add(position[scaled_B.row[e]], scaled_B.column[e], scaled_B.value[e]);
+    scaled_B = std::move(of_B);
+    SymmetricEntries of_kept;
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (is_seen[blocks.find_set(static_cast<std::size_t>(entries.row[e]))])
+        of_kept.add(position[entries.row[e]], position[entries.column[e]], entries.value[e]);
+    entries = std::move(of_kept);
     place.clear();
     for (const std::size_t i : rows.owned())
       place.push_back(position[i]);
-    own_rows = std::make_unique<const RowMap>(rows, std::move(held));
+    own_rows = std::make_unique<const RowMap>(rows, kept);
   }
 
   void InterfacePreconditioner::scale(std::vector<double> &r) const
   {
     if (is_diagonal)
     {
-      for (std::size_t i = 0; i < r.size(); ++i)
-        r[i] *= other[i];
+      for (std::size_t p = 0; p < r.size(); ++p)
+        r[p] *= other[kept[p]];
       return;
     }
     jump = r;
     Q.solve(jump);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      r[i] = is_rigid[i] ? jump[i] : other[i] * r[i];
+    for (std::size_t p = 0; p < r.size(); ++p)
+      r[p] = is_rigid[kept[p]] ? jump[p] : other[kept[p]] * r[p];
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -193,20 +212,20 @@ namespace taut
   void InterfacePreconditioner::apply_by_owners(const std::vector<double> &r,
                                                 std::vector<double> &z) const
   {
-    jump.resize(own_rows->held().size());
+    jump.resize(kept.size());
     own_rows->copy_to_holders(r.data(), jump.data());
-    own_Q.solve(jump);
-    motion.assign(T.n_own_dofs(), 0.);
-    for (std::size_t e = 0; e < own_B.size(); ++e)
-      motion[own_B.column[e]] += own_B.value[e] * jump[own_B.row[e]];
-    T.multiply_own(motion, force);
+    Q.solve(jump);
+    motion.assign(T.n_dofs(), 0.);
+    for (std::size_t e = 0; e < scaled_B.size(); ++e)
+      motion[scaled_B.column[e]] += scaled_B.value[e] * jump[scaled_B.row[e]];
+    T.multiply(motion, force);
     std::fill(jump.begin(), jump.end(), 0.);
-    for (std::size_t e = 0; e < own_B.size(); ++e)
-      jump[own_B.row[e]] += own_B.value[e] * force[own_B.column[e]];
+    for (std::size_t e = 0; e < scaled_B.size(); ++e)
+      jump[scaled_B.row[e]] += scaled_B.value[e] * force[scaled_B.column[e]];
     image.resize(r.size());
     own_rows->add_shares(jump.data(), image.data());
     own_rows->copy_to_holders(image.data(), jump.data());
-    own_Q.solve(jump);
+    Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
       if (is_rigid[owners->owned()[p]])
         z[p] += jump[place[p]];

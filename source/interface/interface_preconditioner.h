@@ -62,39 +62,45 @@ namespace taut
     /// z = M^-1 r on owned rows; zero on inactive constraints. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
-    /// r = Q^-1 r: local stiffness at a constraint, without the bodies behind; 1 / F_ii for elastic
-    /// constraints and without T. Zero on inactive constraints.
+    /// The rows whose blocks of Q this rank has, ascending, the owned ones among them: all rows on
+    /// one rank, and with elastic constraints.
+    const std::vector<std::size_t> &rows_of_blocks() const { return kept; }
+
+    /// r = Q^-1 r on rows_of_blocks(): local stiffness at a constraint, without the bodies behind;
+    /// 1 / F_ii for elastic constraints and without T. Zero on inactive constraints.
     void scale(std::vector<double> &r) const;
 
   private:
-    void add_springs(const std::vector<char> &active, const std::vector<double> &diagonal,
-                     const std::vector<double> &compliance);
+    void set_stiffness(const std::vector<char> &active, const std::vector<double> &diagonal,
+                       const std::vector<double> &compliance);
+    void add_springs();
     void set_scaling(const RowMap &rows);
-    void set_own_rows(const RowMap &rows, const SymmetricEntries &Q_entries);
+    void keep_own_rows(const RowMap &rows, SymmetricEntries &entries);
     void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
     const bool is_diagonal;
     InterfaceStiffness T;
 
-    // The same on all ranks.
-    SparseCholesky inverse_T;
-    MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
-    SparseCholesky Q;              ///< of the rigid rows, 1 on the others
+    // Of all rows, the same on all ranks.
     std::vector<char> is_rigid;    ///< a row of Q
     std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0
     std::vector<double> own;       ///< the part of other without further treatment
     std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, else 0
     bool has_springs = false;
-    mutable std::vector<double> motion, force, jump, all, image;
+    SparseCholesky inverse_T; ///< with springs
 
-    // Of one of several ranks: D^-1 B_r at its DoFs, and Q of the rows that share blocks with
-    // theirs.
+    // Of the rows that are kept, by their positions.
+    std::vector<std::size_t> kept;
+    MatrixEntries scaled_B; ///< D^-1 B_r, in the order of the constraints of T
+    SparseCholesky Q;       ///< of the rigid rows, 1 on the others
+
+    // Of one of several ranks, without springs.
     const RowMap *owners = nullptr;
     std::unique_ptr<const RowMap> own_rows;
-    MatrixEntries own_B; ///< row among those of own_rows, DoF among those of this rank
-    SparseCholesky own_Q;
-    std::vector<std::size_t> place; ///< of an owned row among those of own_rows
+    std::vector<std::size_t> place; ///< of an owned row among those that are kept
+
+    mutable std::vector<double> motion, force, jump, all, image;
   };
 } // namespace taut
 

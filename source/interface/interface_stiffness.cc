@@ -40,8 +40,9 @@ namespace taut
   }
 
   void InterfaceStiffness::setup(const std::vector<char> &active,
-                                 const std::vector<char> &is_changed)
+                                 const std::vector<char> &is_changed, const bool everywhere)
   {
+    is_everywhere = everywhere;
     const Communicator &processes = solvers.structure().communicator();
     processes.agree(
         [&]
@@ -50,15 +51,17 @@ namespace taut
             if (is_changed[k])
               compute_block(k, active);
         });
-    n_own = 0;
+    std::size_t first = 0;
+    n_constrained = 0;
     for (const Block &block : blocks)
-      n_own += block.dofs.size();
-    std::vector<std::size_t> sizes;
-    processes.gather(n_own, sizes);
-    std::size_t first =
-        std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
-    n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
-    first_own = first;
+      n_constrained += block.dofs.size();
+    if (everywhere)
+    {
+      std::vector<std::size_t> sizes;
+      processes.gather(n_constrained, sizes);
+      first = std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
+      n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
+    }
 
     T = {};
     B = {};
@@ -81,15 +84,13 @@ namespace taut
         }
       first += block.dofs.size();
     }
-    own_T = processes.size() > 1 ? T : SymmetricEntries();
-    for (std::size_t e = 0; e < own_T.size(); ++e)
+    if (everywhere)
     {
-      own_T.row[e] -= static_cast<int>(first_own);
-      own_T.column[e] -= static_cast<int>(first_own);
+      gather(processes, T);
+      gather(processes, substitute);
+      gather(processes, B);
     }
-    gather(processes, T);
-    gather(processes, substitute);
-    gather(processes, B);
+    T.compress();
     B.compress();
   }
 
@@ -259,8 +260,8 @@ namespace taut
     return D;
   }
 
-  /// Sets f = T_k u of the blocks of this rank that are not formed, on DoFs after @p before.
-  void InterfaceStiffness::apply_substituted(const std::size_t before, const std::vector<double> &u,
+  /// Sets f = T_k u of the blocks of this rank that are not formed.
+  void InterfaceStiffness::apply_substituted(const std::vector<double> &u,
                                              std::vector<double> &f) const
   {
     for (std::size_t k = 0; k < blocks.size(); ++k)
@@ -268,17 +269,17 @@ namespace taut
       const Block &block = blocks[k];
       if (!block.interior)
         continue;
-      const std::size_t n = block.dofs.size(), first = block.first - before;
+      const std::size_t n = block.dofs.size();
       whole.assign(solvers.structure()[k].n_dofs(), 0.);
       for (std::size_t p = 0; p < n; ++p)
-        whole[block.dofs[p]] = u[first + p];
+        whole[block.dofs[p]] = u[block.first + p];
       solvers.multiply(k, whole, image);
       for (std::size_t p = 0; p < n; ++p)
-        f[first + p] = image[block.dofs[p]];
+        f[block.first + p] = image[block.dofs[p]];
       block.interior->solve(image);
       solvers.multiply(k, image, whole);
       for (std::size_t p = 0; p < n; ++p)
-        f[first + p] -= whole[block.dofs[p]];
+        f[block.first + p] -= whole[block.dofs[p]];
     }
   }
 
@@ -287,16 +288,10 @@ namespace taut
     f.assign(n_constrained, 0.);
     if (substitute.size() > 0)
     {
-      apply_substituted(0, u, f);
-      solvers.structure().communicator().sum(f);
+      apply_substituted(u, f);
+      if (is_everywhere)
+        solvers.structure().communicator().sum(f);
     }
     T.vmult_add(u, f);
-  }
-
-  void InterfaceStiffness::multiply_own(const std::vector<double> &u, std::vector<double> &f) const
-  {
-    f.assign(n_own, 0.);
-    apply_substituted(first_own, u, f);
-    own_T.vmult_add(u, f);
   }
 } // namespace taut

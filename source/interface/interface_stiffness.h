@@ -37,31 +37,25 @@ namespace taut
     /// it takes more DoFs than the active constraints have.
     std::vector<std::size_t> applied_bodies(const std::vector<char> &active, bool coarse) const;
 
-    /// See InterfacePreconditioner::setup(). Called by all ranks together.
-    void setup(const std::vector<char> &active, const std::vector<char> &is_changed);
+    /// See InterfacePreconditioner::setup(). With @p everywhere all ranks get T and B of all
+    /// bodies, otherwise each those of its own ones, which no others are coupled with but by
+    /// springs. Called by all ranks together.
+    void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
+               bool everywhere);
 
-    /// After setup(): adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0.
+    /// After setup() everywhere: adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0.
     void add_springs(const std::vector<double> &s);
 
-    /// Number of DoFs in all lists b, and the forms B in order of their rows; the same on all
-    /// ranks.
+    /// Number of DoFs in the lists b, and the forms B in order of their rows.
     std::size_t n_dofs() const { return n_constrained; }
     const MatrixEntries &constraints() const { return B; }
 
-    /// T with entries for all bodies, and its diagonal.
+    /// T with entries for all its bodies, and its diagonal.
     SymmetricEntries entries() const;
     std::vector<double> diagonal() const;
 
     /// f = T u. Called by all ranks together.
     void multiply(const std::vector<double> &u, std::vector<double> &f) const;
-
-    /// The DoFs in the lists of this rank: their first one and their number.
-    std::size_t first_own_dof() const { return first_own; }
-    std::size_t n_own_dofs() const { return n_own; }
-
-    /// The same without springs for the DoFs of this rank alone, which no others are coupled with;
-    /// on several ranks.
-    void multiply_own(const std::vector<double> &u, std::vector<double> &f) const;
 
   private:
     /// T_k, by position in the list of DoFs b.
@@ -69,7 +63,7 @@ namespace taut
     {
       std::vector<unsigned int> dofs;
       SymmetricEntries entries;
-      std::size_t first = 0; ///< position of its first DoF in the lists of all bodies
+      std::size_t first = 0; ///< position of its first DoF in the lists
 
       /// Solver of the other DoFs, if the Schur complement is applied and not formed.
       std::unique_ptr<LocalSolver> interior;
@@ -80,15 +74,13 @@ namespace taut
                                                    const std::vector<char> &active) const;
     void set_entries(std::size_t k, Block &block) const;
     void condense(std::size_t k, Block &block) const;
-    void apply_substituted(std::size_t before, const std::vector<double> &u,
-                           std::vector<double> &f) const;
+    void apply_substituted(const std::vector<double> &u, std::vector<double> &f) const;
 
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;
-    bool follows_sets = false;
-    std::size_t n_constrained = 0, first_own = 0, n_own = 0;
-    SymmetricEntries own_T;      ///< formed blocks of this rank, by positions in its own lists
+    bool follows_sets = false, is_everywhere = false;
+    std::size_t n_constrained = 0;
     SymmetricEntries T;          ///< formed blocks and springs
     SymmetricEntries substitute; ///< A_k on b of blocks that are not formed
     MatrixEntries B;             ///< row of F, DoF

@@ -326,17 +326,18 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const auto divide = [&](std::vector<double> &all)
+    const std::vector<std::size_t> &rows_of_blocks = preconditioner.rows_of_blocks();
+    const auto divide = [&](std::vector<double> &values)
     {
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = active[i] ? all[i] / scale()[i] : 0.;
+      for (std::size_t p = 0; p < values.size(); ++p)
+        values[p] = active[rows_of_blocks[p]] ? values[p] / scale()[rows_of_blocks[p]] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(),
-                                              [&](std::vector<double> &all)
+    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(), rows_of_blocks,
+                                              [&](std::vector<double> &values)
                                               {
-                                                divide(all);
-                                                preconditioner.scale(all);
-                                                divide(all);
+                                                divide(values);
+                                                preconditioner.scale(values);
+                                                divide(values);
                                               });
     x.assign(constraints.size(), 0.);
     bool is_solved = coarse_problem.holds_the_bodies();
