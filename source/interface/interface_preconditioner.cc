@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/interface_preconditioner.h"
 #include "base/gather_entries.h"
+#include "base/groups.h"
 #include "base/pivots.h"
 
 #include <taut/base/exceptions.h>
@@ -48,7 +49,9 @@ namespace taut
     own_rows.reset();
     if (is_diagonal)
     {
-      kept = rows.owned();
+      kept.rows = rows.owned();
+      kept.block.resize(kept.rows.size());
+      std::iota(kept.block.begin(), kept.block.end(), std::size_t(0));
       return;
     }
     set_stiffness(active, diagonal, compliance);
@@ -131,18 +134,22 @@ namespace taut
       own[i] = stiffness[i] == 0. ? other[i] : 0.;
     }
     if (is_shared)
-      keep_own_rows(rows, entries);
+      keep_own_blocks(rows, entries);
     else
     {
-      kept.resize(diagonal.size());
-      std::iota(kept.begin(), kept.end(), std::size_t(0));
+      kept.rows.resize(diagonal.size());
+      std::iota(kept.rows.begin(), kept.rows.end(), std::size_t(0));
     }
     entries.compress();
-    rows.communicator().agree([&] { Q.factor(kept.size(), entries, 0.); });
+    Groups blocks(kept.rows.size());
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      blocks.join(entries.row[e], entries.column[e]);
+    kept.block = blocks.numbers();
+    rows.communicator().agree([&] { Q.factor(kept.rows.size(), entries, 0.); });
   }
 
   /// Keeps the blocks of Q that the bodies of this rank see, in @p entries and D^-1 B_r.
-  void InterfacePreconditioner::keep_own_rows(const RowMap &rows, SymmetricEntries &entries)
+  void InterfacePreconditioner::keep_own_blocks(const RowMap &rows, SymmetricEntries &entries)
   {
     boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
     for (std::size_t e = 0; e < entries.size(); ++e)
@@ -154,13 +161,13 @@ namespace taut
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
       if (scaled_B.value[e] != 0.)
         is_seen[blocks.find_set(static_cast<std::size_t>(scaled_B.row[e]))] = 1;
-    kept.clear();
+    kept.rows.clear();
     std::vector<std::size_t> position(is_rigid.size(), 0);
     for (std::size_t i = 0; i < is_rigid.size(); ++i)
       if (is_seen[blocks.find_set(i)])
       {
-        position[i] = kept.size();
-        kept.push_back(i);
+        position[i] = kept.rows.size();
+        kept.rows.push_back(i);
       }
     MatrixEntries of_B;
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
@@ -175,7 +182,7 @@ namespace taut
     place.clear();
     for (const std::size_t i : rows.owned())
       place.push_back(position[i]);
-    own_rows = std::make_unique<const RowMap>(rows, kept);
+    own_rows = std::make_unique<const RowMap>(rows, kept.rows);
   }
 
   void InterfacePreconditioner::scale(std::vector<double> &r) const
@@ -183,13 +190,13 @@ namespace taut
     if (is_diagonal)
     {
       for (std::size_t p = 0; p < r.size(); ++p)
-        r[p] *= other[kept[p]];
+        r[p] *= other[kept.rows[p]];
       return;
     }
     jump = r;
     Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
-      r[p] = is_rigid[kept[p]] ? jump[p] : other[kept[p]] * r[p];
+      r[p] = is_rigid[kept.rows[p]] ? jump[p] : other[kept.rows[p]] * r[p];
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -212,7 +219,7 @@ namespace taut
   void InterfacePreconditioner::apply_by_owners(const std::vector<double> &r,
                                                 std::vector<double> &z) const
   {
-    jump.resize(kept.size());
+    jump.resize(kept.rows.size());
     own_rows->copy_to_holders(r.data(), jump.data());
     Q.solve(jump);
     motion.assign(T.n_dofs(), 0.);

@@ -4,12 +4,25 @@
 
 #include "interface/interface_stiffness.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace taut
 {
+  /// Rows of the constraints in blocks between which a matrix has no entries.
+  struct RowBlocks
+  {
+    std::vector<std::size_t> rows;  ///< ascending
+    std::vector<std::size_t> block; ///< the number of that of each row
+
+    std::size_t n_blocks() const
+    {
+      return block.empty() ? 0 : *std::max_element(block.begin(), block.end()) + 1;
+    }
+  };
+
   /**
    * A cheap approximation of F^-1 on an active set, by name. With the DoFs b in active constraints,
    *
@@ -62,12 +75,12 @@ namespace taut
     /// z = M^-1 r on owned rows; zero on inactive constraints. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
-    /// The rows whose blocks of Q this rank has, ascending, the owned ones among them: all rows on
-    /// one rank, and with elastic constraints.
-    const std::vector<std::size_t> &rows_of_blocks() const { return kept; }
+    /// The blocks of Q that this rank has, with the owned rows: all on one rank, and with elastic
+    /// constraints.
+    const RowBlocks &blocks() const { return kept; }
 
-    /// r = Q^-1 r on rows_of_blocks(): local stiffness at a constraint, without the bodies behind;
-    /// 1 / F_ii for elastic constraints and without T. Zero on inactive constraints.
+    /// r = Q^-1 r on the rows of blocks(): local stiffness at a constraint, without the bodies
+    /// behind; 1 / F_ii for elastic constraints and without T. Zero on inactive constraints.
     void scale(std::vector<double> &r) const;
 
   private:
@@ -75,7 +88,7 @@ namespace taut
                        const std::vector<double> &compliance);
     void add_springs();
     void set_scaling(const RowMap &rows);
-    void keep_own_rows(const RowMap &rows, SymmetricEntries &entries);
+    void keep_own_blocks(const RowMap &rows, SymmetricEntries &entries);
     void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
@@ -91,7 +104,7 @@ namespace taut
     SparseCholesky inverse_T; ///< with springs
 
     // Of the rows that are kept, by their positions.
-    std::vector<std::size_t> kept;
+    RowBlocks kept;
     MatrixEntries scaled_B; ///< D^-1 B_r, in the order of the constraints of T
     SparseCholesky Q;       ///< of the rigid rows, 1 on the others
 

@@ -326,13 +326,13 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const std::vector<std::size_t> &rows_of_blocks = preconditioner.rows_of_blocks();
+    const RowBlocks &blocks = preconditioner.blocks();
     const auto divide = [&](std::vector<double> &values)
     {
       for (std::size_t p = 0; p < values.size(); ++p)
-        values[p] = active[rows_of_blocks[p]] ? values[p] / scale()[rows_of_blocks[p]] : 0.;
+        values[p] = active[blocks.rows[p]] ? values[p] / scale()[blocks.rows[p]] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(), rows_of_blocks,
+    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(), blocks,
                                               [&](std::vector<double> &values)
                                               {
                                                 divide(values);

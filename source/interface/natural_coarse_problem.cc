@@ -3,6 +3,7 @@
 #include "base/gather_entries.h"
 #include "base/pivots.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -18,47 +19,101 @@ namespace taut
     return result;
   }
 
+  namespace
+  {
+    constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+    /// Positions of some rows among all; nowhere for others.
+    std::vector<std::size_t> positions(const std::vector<std::size_t> &rows, const std::size_t n)
+    {
+      std::vector<std::size_t> result(n, nowhere);
+      for (std::size_t p = 0; p < rows.size(); ++p)
+        result[rows[p]] = p;
+      return result;
+    }
+
+    /// Sets of vectors of which no two have entries in one block. @p blocks are those of each
+    /// vector.
+    std::vector<std::vector<std::size_t>> apart(const std::vector<std::vector<std::size_t>> &blocks,
+                                                const std::size_t n_blocks)
+    {
+      std::vector<std::vector<std::size_t>> result, sets_at(n_blocks);
+      std::vector<std::size_t> last; // vector that meets a set
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+      {
+        if (blocks[k].empty())
+          continue;
+        for (const std::size_t b : blocks[k])
+          for (const std::size_t set : sets_at[b])
+            last[set] = k;
+        const std::size_t own =
+            std::find_if(last.begin(), last.end(), [k](const std::size_t v) { return v != k; }) -
+            last.begin();
+        if (own == last.size())
+        {
+          last.push_back(nowhere);
+          result.emplace_back();
+        }
+        result[own].push_back(k);
+        for (const std::size_t b : blocks[k])
+          sets_at[b].push_back(own);
+      }
+      return result;
+    }
+  } // namespace
+
   NaturalCoarseProblem::NaturalCoarseProblem(
       const std::vector<LinearForm> &null_space, const std::vector<double> &scale,
-      const std::vector<char> &active, const RowMap &rows,
-      const std::vector<std::size_t> &rows_of_blocks,
+      const std::vector<char> &active, const RowMap &rows, const RowBlocks &blocks,
       const std::function<void(std::vector<double> &)> &solve)
       : rows(rows), G(null_space.size()), scaled_G(null_space.size())
   {
-    constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> position(active.size(), nowhere), number(active.size(), nowhere);
-    for (std::size_t p = 0; p < rows_of_blocks.size(); ++p)
-      position[rows_of_blocks[p]] = p;
-    for (std::size_t p = 0; p < rows.owned().size(); ++p)
-      number[rows.owned()[p]] = p;
-    // Motions at each owned row, so that only motions with common rows are multiplied.
-    std::vector<std::vector<std::pair<std::size_t, double>>> at_row(rows.owned().size());
-    std::vector<double> values;
+    const std::vector<std::size_t> position = positions(blocks.rows, active.size()),
+                                   owned = positions(rows.owned(), active.size());
+    std::vector<LinearForm> on_blocks(null_space.size());
+    std::vector<std::vector<std::size_t>> met(null_space.size());
     for (std::size_t k = 0; k < null_space.size(); ++k)
     {
-      bool is_seen = false;
-      values.assign(rows_of_blocks.size(), 0.);
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
         const unsigned int i = null_space[k].index[e];
         if (!active[i] || position[i] == nowhere)
           continue;
         const double value = null_space[k].value[e] * scale[i];
-        values[position[i]] += value;
-        is_seen = true;
-        if (number[i] != nowhere)
-          G[k].add(number[i], value);
+        on_blocks[k].add(position[i], value);
+        met[k].push_back(blocks.block[position[i]]);
+        if (owned[i] != nowhere)
+          G[k].add(owned[i], value);
       }
-      if (!is_seen)
-        continue;
-      solve(values);
-      for (std::size_t p = 0; p < at_row.size(); ++p)
-        if (const double value = values[position[rows.owned()[p]]]; value != 0.)
-        {
-          scaled_G[k].add(p, value);
-          at_row[p].emplace_back(k, value);
-        }
+      std::sort(met[k].begin(), met[k].end());
+      met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
     }
+    std::vector<std::vector<std::size_t>> members(blocks.n_blocks());
+    for (std::size_t p = 0; p < blocks.rows.size(); ++p)
+      members[blocks.block[p]].push_back(p);
+    std::vector<double> values;
+    for (const std::vector<std::size_t> &set : apart(met, members.size()))
+    {
+      values.assign(blocks.rows.size(), 0.);
+      for (const std::size_t k : set)
+        on_blocks[k].add_to(1., values);
+      solve(values);
+      for (const std::size_t k : set)
+      {
+        std::vector<std::size_t> reached;
+        for (const std::size_t b : met[k])
+          reached.insert(reached.end(), members[b].begin(), members[b].end());
+        std::sort(reached.begin(), reached.end());
+        for (const std::size_t p : reached)
+          if (const std::size_t own = owned[blocks.rows[p]]; own != nowhere && values[p] != 0.)
+            scaled_G[k].add(own, values[p]);
+      }
+    }
+    // Motions at each owned row, so that only motions with common rows are multiplied.
+    std::vector<std::vector<std::pair<std::size_t, double>>> at_row(rows.owned().size());
+    for (std::size_t k = 0; k < scaled_G.size(); ++k)
+      for (std::size_t e = 0; e < scaled_G[k].index.size(); ++e)
+        at_row[scaled_G[k].index[e]].emplace_back(k, scaled_G[k].value[e]);
     SymmetricEntries entries;
     for (std::size_t k = 0; k < G.size(); ++k)
     {

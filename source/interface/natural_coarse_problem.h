@@ -2,8 +2,10 @@
 #ifndef taut_natural_coarse_problem_h
 #define taut_natural_coarse_problem_h
 
+#include "interface/interface_preconditioner.h"
 #include <taut/base/linear_form.h>
 #include <taut/base/sparse_cholesky.h>
+
 #include <taut/interface/row_map.h>
 
 #include <functional>
@@ -25,12 +27,12 @@ namespace taut
   {
   public:
     /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns.
-    /// Only columns of active rows count. @p solve applies Q^-1 on @p rows_of_blocks, which the
-    /// owned rows and all that Q couples them with are among; zero on rows that are not active.
+    /// Only columns of active rows count. @p solve applies Q^-1 to the rows of @p blocks, the owned
+    /// ones among them; zero on rows that are not active.
     /// Other functions take vectors on owned rows. All are called by all ranks together.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                          const std::vector<double> &scale, const std::vector<char> &active,
-                         const RowMap &rows, const std::vector<std::size_t> &rows_of_blocks,
+                         const RowMap &rows, const RowBlocks &blocks,
                          const std::function<void(std::vector<double> &)> &solve);
 
     /// False if rows of G are dependent: the active rows do not hold a body.
