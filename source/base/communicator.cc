@@ -129,6 +129,14 @@ namespace taut
     return both[1] > 0. ? std::numeric_limits<double>::quiet_NaN() : both[0];
   }
 
+  void Communicator::max(std::vector<double> &values) const
+  {
+    for (std::size_t first = 0; n_ranks > 1 && first < values.size(); first += largest_message)
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first,
+                    static_cast<int>(std::min(values.size() - first, largest_message)), MPI_DOUBLE,
+                    MPI_MAX, processes);
+  }
+
   void Communicator::gather(const std::size_t value, std::vector<std::size_t> &all) const
   {
     static_assert(sizeof(std::size_t) == sizeof(unsigned long), "MPI knows it by this type");

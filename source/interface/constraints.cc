@@ -219,29 +219,24 @@ namespace taut
                                              const) const
   {
     std::vector<double> count(constraints.size(), 0.);
+    std::vector<std::vector<unsigned int>> dofs;
     for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const std::vector<unsigned int> dofs = (structure[k].*wanted)();
-      for (std::size_t e = 0, i = 0; e < begin[first_turning]; ++e)
-      {
-        while (e >= begin[i + 1])
-          ++i;
-        if (entries[e].body == k)
-          count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
-      }
-      // A sliding constraint changes its DoFs along a body, but not those of lumped masses.
-      if (structure[k].is_lumped())
-        for (const std::size_t i : sliding_rows())
-          for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-            if (entries[e].body == k)
-              count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
-      for (const std::size_t i : turning_rows())
-        for (const std::vector<Term> &motion : turning(i).motion)
-          for (const Term &term : motion)
-            if (term.substructure == k)
-              for (const unsigned int dof : term.form.index)
-                count[i] += std::binary_search(dofs.begin(), dofs.end(), dof);
-    }
+      dofs.push_back((structure[k].*wanted)());
+    const auto is_wanted = [&](const std::size_t k, const unsigned int dof)
+    { return std::binary_search(dofs[k].begin(), dofs[k].end(), dof); };
+    for (const std::size_t i : fixed_rows())
+      for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+        count[i] += is_wanted(entries[e].body, entries[e].dof);
+    // A sliding constraint changes its DoFs along a body, but not those of lumped masses.
+    for (const std::size_t i : sliding_rows())
+      for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+        if (structure[entries[e].body].is_lumped())
+          count[i] += is_wanted(entries[e].body, entries[e].dof);
+    for (const std::size_t i : turning_rows())
+      for (const std::vector<Term> &motion : turning(i).motion)
+        for (const Term &term : motion)
+          for (const unsigned int dof : term.form.index)
+            count[i] += is_wanted(term.substructure, dof);
     structure.communicator().sum(count);
     std::vector<char> result;
     for (const double n_dofs : count)

@@ -308,10 +308,11 @@ namespace taut
         "'METIS': parts of about equal work. 'wires': every wire is a part. 'given': wires at "
         "the positions of Cuts",
         Selection("METIS|wires|given"));
-    prm.add_parameter("Number of substructures", n_substructures,
-                      "Parts that METIS cuts wires and solids into, 1: no cuts; 'automatic': large "
-                      "solids in space are cut for statics and a few steps [1]",
-                      Anything());
+    prm.add_parameter(
+        "Number of substructures", n_substructures,
+        "Parts that METIS cuts wires and solids into, 1: no cuts. 'automatic': no cuts, "
+        "but large solids in space are cut for statics and a few steps [1]",
+        Anything());
     prm.add_parameter("Cuts", cuts,
                       "For 'given': 'wire @ positions; other wire @ positions', numbers and ranges "
                       "first:step:last [m]",
@@ -322,8 +323,13 @@ namespace taut
   NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps,
                                           const bool tuned_blas)
   {
-    const std::size_t least = tuned_blas ? least_with_tuned_blas : least_cut_dofs;
     std::ostringstream reason;
+    if (n_steps > most_solves)
+    {
+      reason << "more than " << most_solves << " steps use one factor of the whole";
+      return {1, reason.str()};
+    }
+    const std::size_t least = tuned_blas ? least_with_tuned_blas : least_cut_dofs;
     std::size_t n_dofs = 0;
     for (const CustomBody &body : scene.bodies)
       if (const auto division = body.type->division({body.name, body.origin, scene.gravity}))
@@ -334,11 +340,6 @@ namespace taut
       reason << "no solid in space has " << least << " DoFs: with "
              << (tuned_blas ? "a tuned BLAS" : "the reference BLAS")
              << " a factor of the whole costs little";
-      return {1, reason.str()};
-    }
-    if (n_steps > most_solves)
-    {
-      reason << "more than " << most_solves << " steps use one factor of the whole";
       return {1, reason.str()};
     }
     reason << n_dofs << " DoFs of solids in space: iterations of a few solutions cost less than a "

@@ -41,7 +41,8 @@ namespace taut
       const NumberOfParts parts =
           automatic_number_of_parts(model, parameters.end_time / parameters.step);
       chosen.n_substructures = std::to_string(parts.n);
-      parts_reason = counted(parts.n, "part") + ": " + parts.reason;
+      if (parts.n > 1)
+        parts_reason = counted(parts.n, "part") + ": " + parts.reason;
     }
     return chosen;
   }
@@ -162,7 +163,11 @@ namespace taut
     {
       log << "Static equilibrium: residual " << start.residuals.complementarity << " (links), "
           << start.residuals.balance << " (balance), "
-          << counted(start.residuals.iterations, "active-set iteration") << '\n';
+          << counted(start.residuals.iterations, "active-set iteration");
+      if (start.residuals.n_systems > 0)
+        log << ", " << counted(start.residuals.n_inner_iterations, "iteration")
+            << " of conjugate gradients in " << counted(start.residuals.n_systems, "system");
+      log << '\n';
       report_free_bodies();
       processes.agree(
           [&]

@@ -51,22 +51,20 @@ namespace taut
   std::vector<double> ContactMeasures::resolved_times() const
   {
     std::vector<double> highest(constraints.size(), 0.);
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      if (structure[k].is_lumped())
-        continue;
-      const std::vector<double> omega = frequencies(structure[k]);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        for (const Term &term : constraints[i].terms)
-          if (term.substructure == k && constraints[i].cone.may_open())
-            for (const unsigned int dof : term.form.index)
-              highest[i] = std::max(highest[i], omega[dof]);
-    }
+    std::vector<std::vector<double>> omega(structure.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      for (const auto &[k, form, of] : constraints[i].terms)
+      {
+        if (!constraints[i].cone.may_open() || structure[k].is_lumped())
+          continue;
+        if (omega[k].empty())
+          omega[k] = frequencies(structure[k]);
+        for (const unsigned int dof : form.index)
+          highest[i] = std::max(highest[i], omega[k][dof]);
+      }
+    structure.communicator().max(highest);
     for (double &value : highest)
-    {
-      value = structure.communicator().max(value);
       value = value > 0. ? 2. / value : 0.;
-    }
     return highest;
   }
 

@@ -222,6 +222,9 @@ namespace taut
   {
     step.measure_balance(state, residuals);
     step.certify(state, residuals);
+    const InterfaceStatistics solves = step.interface_statistics();
+    residuals.n_systems = solves.n_systems;
+    residuals.n_inner_iterations = solves.n_iterations;
     return residuals;
   }
 } // namespace taut

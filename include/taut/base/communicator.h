@@ -46,6 +46,9 @@ namespace taut
     /// The largest of the values of all ranks; not-a-number if one value is.
     double max(double value) const;
 
+    /// The same for each entry, of values that are numbers.
+    void max(std::vector<double> &values) const;
+
     /// True if @p is_true is true on any rank.
     bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
 

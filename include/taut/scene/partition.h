@@ -102,7 +102,7 @@ namespace taut
   struct PartitionParameters
   {
     std::string method = "METIS";
-    std::string n_substructures = "1"; ///< or "automatic"
+    std::string n_substructures = "automatic"; ///< or a number
     std::string cuts;
 
     /// Declares the members in subsection "Partition".

@@ -28,6 +28,10 @@ namespace taut
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the solver's other method finished the step
 
+    /// At rest: systems with the contact Schur complement that conjugate gradients have solved, and
+    /// their iterations.
+    long n_systems = 0, n_inner_iterations = 0;
+
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
