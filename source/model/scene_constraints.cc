@@ -377,7 +377,9 @@ namespace taut
         bodies.motion(link.from, false, link.sideways.direction, -1., constraint.terms);
         constraints.push_back(std::move(constraint));
       }
-    for (ConstraintData &constraint : surface_constraints(scene, bodies))
+    std::vector<ConstraintData> of_surfaces = surface_constraints(scene, bodies);
+    constraints.reserve(constraints.size() + of_surfaces.size() + bodies.cut_constraints().size());
+    for (ConstraintData &constraint : of_surfaces)
       constraints.push_back(std::move(constraint));
     for (const CutConstraint &cut : bodies.cut_constraints())
     {

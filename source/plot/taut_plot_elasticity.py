@@ -26,8 +26,8 @@ def read_elasticity(folder):
             said = json.load(file)
         wires = {}
         for line in lines:
-            wires.setdefault(line["wire"], []).append((float(line["x [m]"]), float(line["elasticity [mm/N]"])))
-        return said["force [N]"], said["slackening"], {wire: np.transpose(points) for wire, points in wires.items()}
+            wires.setdefault(line["wire"], []).append((float(line["x [m]"]), 1e3 * float(line["elasticity [m/N]"])))
+        return said["force"]["value"], said["slackening"], {wire: np.transpose(points) for wire, points in wires.items()}
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise UserError(f"the elasticity in '{folder}' is damaged: {error!r}") from error
 

@@ -8,7 +8,7 @@ import os
 import re
 
 import matplotlib
-
+import taut_plot_assessment as assessment
 from taut_plot_files import UserError
 
 MOST_ROWS = 200
@@ -90,7 +90,15 @@ def item_tables(section):
     return lines
 
 
-def statistics_part(tree):
+def assessment_part(tree, folder):
+    rows = assessment.rows(tree, folder)
+    if not rows:
+        return []
+    said = [f"<p>{html.escape(assessment.heading(tree['sliding_contacts']))}</p>"] if tree.get("sliding_contacts") else []
+    return ["<h2>Assessment of the line</h2>", *said, table(("", "of", "", "expected", "source"), rows)]
+
+
+def statistics_part(tree, folder):
     lines = []
     if "verdict" in tree:
         verdict = tree["verdict"]
@@ -100,6 +108,7 @@ def statistics_part(tree):
         lines.append('<p class="warning">The run is not complete.</p>')
     for warning in tree.get("warnings", []):
         lines.append(f'<p class="warning">{html.escape(warning["message"])}</p>')
+    lines += assessment_part(tree, folder)
     for key, section in tree.items():
         if isinstance(section, dict) and "value" in section:
             if key not in ("step", "end"):
@@ -150,7 +159,9 @@ def write_report(folder, figures, path):
             title = tree.get("scene", title)
             said = [f"{key}: {text_of(tree[key]['value'])} {tree[key]['unit']}" for key in ("step", "end") if key in tree]
             said += [f"{key}: {tree[key]}" for key in ("generator", "scheme", "version") if tree.get(key)]
-            lines += [f"<p>{html.escape('; '.join(said))}</p>", *statistics_part(tree)]
+            lines += [f"<p>{html.escape('; '.join(said))}</p>", *statistics_part(tree, folder)]
+        else:
+            lines += assessment_part({}, folder)
         for name, what in (("sweep.csv", "Sweep"), ("start.csv", "Links at the start")):
             if os.path.exists(os.path.join(folder, name)):
                 lines += file_part(os.path.join(folder, name), what)

@@ -7,6 +7,7 @@
 #include "model/form_finding.h"
 #include "model/scene_constraints.h"
 #include "model/shared_parts.h"
+#include "output/json_values.h"
 #include <taut/base/exceptions.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -209,18 +210,19 @@ namespace taut
   void Elasticity::write() const
   {
     std::ostringstream table;
-    table << "wire,x [m],elasticity [mm/N]\n" << std::setprecision(10);
+    table << "wire,x [m],elasticity [m/N]\n" << std::setprecision(10);
     nlohmann::ordered_json summary;
-    summary["force [N]"] = parameters.elasticity.force;
+    summary["schema"] = statistics_schema;
+    summary["force"] = json_quantity(parameters.elasticity.force, "N");
     summary["slackening"] = parameters.elasticity.slackening;
+    summary["wires"] = nlohmann::ordered_json::object();
     for (const ElasticityOfWire &wire : wires)
     {
       for (std::size_t i = 0; i < wire.x.size(); ++i)
-        table << wire.wire << ',' << wire.x[i] << ',' << 1e3 * wire.elasticity[i] << '\n';
-      summary["wires"].push_back({{"wire", wire.wire},
-                                  {"e_max [mm/N]", 1e3 * wire.largest()},
-                                  {"e_min [mm/N]", 1e3 * wire.smallest()},
-                                  {"non-uniformity u [%]", 100. * wire.nonuniformity()}});
+        table << wire.wire << ',' << wire.x[i] << ',' << wire.elasticity[i] << '\n';
+      summary["wires"][wire.wire] = {{"largest_elasticity", json_quantity(wire.largest(), "m/N")},
+                                     {"smallest_elasticity", json_quantity(wire.smallest(), "m/N")},
+                                     {"nonuniformity", json_quantity(wire.nonuniformity(), "1")}};
     }
     std::filesystem::create_directories(parameters.output.folder);
     std::ostringstream entries;

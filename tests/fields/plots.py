@@ -4,6 +4,7 @@
 draws nothing has none of these numbers."""
 from drawing import (FORCE, SCRIPT, TIME, PARAMETERS, arguments, close, contact_table, draw, expect, finish_after, folder, named,
                      not_drawn, options, plot, program, set_style)
+import json
 import shutil
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import sys
 import matplotlib
 import numpy as np
 from PIL import Image
+from taut_plot_assessment import rows as rows_of_assessment
 from taut_plot_compare import PICTURES as COMPARED, labels_of
 from taut_plot_elasticity import elasticity
 from taut_plot_strips import deviation_in, power_spectrum, read_strips
@@ -242,8 +244,8 @@ def check_elasticity():
     path = arguments.results / "elasticity"
     shutil.rmtree(path, ignore_errors=True)
     path.mkdir(parents=True)
-    (path / "elasticity.csv").write_text("wire,x [m],elasticity [mm/N]\none,10,0.4\none,11,0.6\none,12,0.5\ntwo,10,0.1\ntwo,12,0.1\n")
-    (path / "elasticity.json").write_text('{"force [N]": 50, "slackening": false, "wires": []}')
+    (path / "elasticity.csv").write_text("wire,x [m],elasticity [m/N]\none,10,4e-4\none,11,6e-4\none,12,5e-4\ntwo,10,1e-4\ntwo,12,1e-4\n")
+    (path / "elasticity.json").write_text('{"force": {"value": 50, "unit": "N"}, "slackening": false, "wires": {}}')
     first, second = elasticity(str(path))[0].axes
     close("elasticity over x", first.get_lines()[0].get_xydata(), [[10, 0.4], [11, 0.6], [12, 0.5]])
     expect("non-uniformity", first.get_title("left").endswith("at 10 m, u 20 %") and "u 0 %" in second.get_title("left"),
@@ -251,6 +253,35 @@ def check_elasticity():
     expect("force of the elasticity", "50 N, droppers stay closed" in second.get_xlabel(), second.get_xlabel())
     done = program(path, "--format", "png")
     expect("a folder of elasticity", done.returncode == 0 and (path / "figures" / "elasticity.png").exists(), done.stderr)
+
+
+def check_assessment():
+    """Rows by hand of a line with one pantograph too strong, one dropper slack and an elasticity beside."""
+    def of(value, unit="N", **more):
+        return {"value": value, "unit": unit, **more}
+
+    path = arguments.results / "assessment"
+    shutil.rmtree(path, ignore_errors=True)
+    path.mkdir(parents=True)
+    wire = {"largest_elasticity": of(5e-4, "m/N"), "smallest_elasticity": of(3e-4, "m/N"), "nonuniformity": of(0.25, "1")}
+    (path / "elasticity.json").write_text(json.dumps({"wires": {"contact": wire}}))
+    contact = {"filtered": {"mean": of(140.04), "mean_at_this_speed": of(140.04, expected=[None, 130.6], inside=False),
+                            "standard_deviation": of(30, expected=[26, 31], inside=True)},
+               "contact_loss": of(0.012, "1", expected=[0, 0.05], inside=True), "largest_mean_force": {"source": "a standard"}}
+    tree = {"sliding_contacts": {"p": contact}, "line_constants": {"p": {"speed": of(250 / 3.6, "m/s")}},
+            "probes": {"mast 1": {"largest": of(0.0512, "m")}, "force": {"largest": of(5)}},
+            "links": {"a": {"largest_force": of(80), "smallest_force": of(1), "slackenings": of(0, "1")},
+                      "b": {"largest_force": of(90), "smallest_force": of(0), "slackenings": of(3, "1")}}}
+    found = rows_of_assessment(tree, str(path))
+    wanted = [("speed", "p", ("250.0 km/h", ""), "", ""), ("mean force F_m", "p", ("140.0 N", ""), "", ""),
+              ("F_m at this speed", "p", ("140.0 N", "outside"), "at most 130.6 N", "a standard"),
+              ("standard deviation σ", "p", ("30.0 N", "inside"), "26.0 to 31.0 N", ""),
+              ("contact loss", "p", ("1.20 %", "inside"), "0.00 to 5.00 %", ""), ("uplift", "mast 1", ("51.2 mm", ""), "", ""),
+              ("largest force of a dropper or link", "b", ("90.0 N", ""), "", ""), ("smallest", "b", ("0.0 N", ""), "", ""),
+              ("links that went slack", "", ("1 of 2", ""), "", ""), ("largest elasticity", "contact", ("0.500 mm/N", ""), "", ""),
+              ("smallest elasticity", "contact", ("0.300 mm/N", ""), "", "")]
+    expect("assessment of a line", found[:-1] == wanted and found[-1][2] == ("25.0 %", ""), found)
+    expect("no assessment without a line", rows_of_assessment({"probes": tree["probes"]}, "nowhere") == [])
 
 
 def check_units():
@@ -323,5 +354,5 @@ def check_pipe():
     expect("pictures into a closed pipe", (path / "figures" / "force_histogram.png").exists())
 
 
-finish_after(check_contacts, check_changed_steps, check_masts, check_strips, check_probes, check_links, check_sweep, check_elasticity, check_units, check_study,
-             check_several, check_sizes, check_pipe)
+finish_after(check_contacts, check_changed_steps, check_masts, check_strips, check_probes, check_links, check_sweep, check_elasticity,
+             check_assessment, check_units, check_study, check_several, check_sizes, check_pipe)
