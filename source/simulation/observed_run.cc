@@ -9,6 +9,8 @@
 #include <exception>
 #include <filesystem>
 #include <ostream>
+#include <sstream>
+#include <string>
 
 namespace taut
 {
@@ -216,10 +218,22 @@ namespace taut
 
   void ObservedRun::report(std::ostream &log, const bool failed) const
   {
+    std::stringstream said;
+    said.copyfmt(log);
     for (const Observer *observer : observers)
-      observer->report(log, failed);
+      observer->report(said, failed);
     if (!failed && motion.costs().sums().n_steps > 0)
-      print_cost(log);
+      print_cost(said);
+    // Warnings stand together at the end, whatever they are about.
+    const std::string mark = "Warning: ";
+    std::string warnings;
+    for (std::string line; std::getline(said, line);)
+      if (const std::size_t at = line.find_first_not_of(' ');
+          at != std::string::npos && line.compare(at, mark.size(), mark) == 0)
+        warnings += line.substr(at) + '\n';
+      else
+        log << line << '\n';
+    log << warnings;
   }
 
   std::vector<NamedQuantity> ObservedRun::quantities() const

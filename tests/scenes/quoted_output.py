@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""README.md and doc/tutorial.md quote what the program prints: every line of a block marked `text` there is a line of the run
+"""README.md, doc/tutorial.md and doc/guyed_mast.md quote what the program prints: every line of a block marked `text` there is a line of the run
 that the page describes, and the parameter file that the tutorial builds up is the one of prm/. Integers are the same,
 decimals to two units of the last digit quoted or a thousandth, residuals at rounding level on both sides."""
 import pathlib
@@ -55,27 +55,28 @@ for mark, lines in blocks(arguments.root / "README.md"):
         compare("README.md", lines, of_block)
         of_block = line_run
 
-# The second half of the tutorial writes mast.prm, block by block.
+for mark, lines in blocks(arguments.root / "doc" / "tutorial.md"):
+    if mark == "text":
+        compare("tutorial.md", lines, line_run)
+
+# guyed_mast.md writes mast.prm, block by block.
 mast, mast_run = "", None
-entries = [(mark, lines) for mark, lines in blocks(arguments.root / "doc" / "tutorial.md") if mark in ("prm", "text")]
-first = next(i for i, (_, lines) in enumerate(entries) if "set Generator = network" in lines)
-for i, (mark, lines) in enumerate(entries):
-    if i < first:
-        if mark == "text":
-            compare("tutorial.md", lines, line_run)
-    elif mark == "prm":
+for mark, lines in blocks(arguments.root / "doc" / "guyed_mast.md"):
+    if mark == "prm":
         if "subsection Network" not in lines and lines[0].startswith("  ") and mast.endswith("end\n"):
             mast = mast[:-len("end\n")]  # goes on inside of Network
         mast += "\n".join(lines) + "\n"
         if lines[0].startswith("  "):
             mast += "end\n"
         (arguments.results / "mast.prm").write_text(mast, encoding="utf-8")
+    elif mark != "text":
+        continue
     elif lines[0].startswith("taut: "):
-        compare("tutorial.md", wrapped(lines), wrapped(run("mast.prm", "--check")[-1:]))
+        compare("guyed_mast.md", wrapped(lines), wrapped(run("mast.prm", "--check")[-1:]))
     else:
         if mast_run is None:
             mast_run = run("mast.prm") + (arguments.results / "results/mast/start.csv").read_text().splitlines()
-        compare("tutorial.md", lines, mast_run)
+        compare("guyed_mast.md", lines, mast_run)
 
 
 def statements(text):
@@ -85,7 +86,7 @@ def statements(text):
 
 
 if mast_run is None or statements(mast) != statements((arguments.root / "prm" / "guyed_mast.prm").read_text(encoding="utf-8")):
-    errors.append("the tutorial does not build up prm/guyed_mast.prm")
+    errors.append("guyed_mast.md does not build up prm/guyed_mast.prm")
 print(n_lines, "lines compared")
 if n_lines < 20:
     errors.append("hardly a line is quoted")
