@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <map>
 #include <sstream>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,9 @@ namespace taut
 
       double lowest() const { return bottom; }
 
-      /// Begins the drawing, after all points were included.
-      void begin()
+      /// Begins the drawing, after all points were included. Masses at one place hang below each
+      /// other, @p most_masses of them.
+      void begin(const int most_masses)
       {
         constexpr double most_width = 1000., most_height = 700., least_height = 120.;
         if (left > right) // nothing to draw
@@ -44,9 +46,10 @@ namespace taut
         sy = high > 0. ? std::clamp(least_height / high, sx, most) : sx;
         width = std::max(wide * sx, least_height);
         height = std::max(high * sy, least_height);
+        const double below = mass_distance * std::max(0, most_masses - 1);
         out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\""
-            << std::max(width + 2. * margin, legend_width) << "\" height=\"" << height + 2. * margin
-            << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+            << std::max(width + 2. * margin, legend_width) << "\" height=\""
+            << height + below + 2. * margin << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
             << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
       }
 
@@ -60,6 +63,21 @@ namespace taut
         out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" "
             << style << "/>\n";
       }
+      /// A mass, below those at the same place.
+      void mass(const Coordinates &p, const std::string &name)
+      {
+        const int before = n_masses[pixel(p)]++;
+        const double y = Y(p) + mass_distance * before;
+        if (before > 0)
+          out << "<line x1=\"" << X(p) << "\" y1=\"" << y - mass_distance << "\" x2=\"" << X(p)
+              << "\" y2=\"" << y << "\" stroke=\"#393\"/>\n";
+        out << "<circle cx=\"" << X(p) << "\" cy=\"" << y << "\" r=\"5\" fill=\"#393\"/>\n";
+        if (before == 0)
+          label(p, name);
+        else
+          text(X(p) + 9., y + 4., name);
+      }
+
       /// The ground: a triangle below a point.
       void ground(const Coordinates &p)
       {
@@ -67,14 +85,10 @@ namespace taut
       }
       void label(const Coordinates &p, const std::string &name)
       {
-        std::string safe;
-        for (const char c : name)
-          safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
         // Names of one place stand above each other.
         constexpr double line_height = 12.;
-        const int before = n_labels[{std::lround(X(p)), std::lround(Y(p))}]++;
-        out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. - line_height * before << "\">"
-            << safe << "</text>\n";
+        const int before = n_labels[pixel(p)]++;
+        text(X(p) + 6., Y(p) - 6. - line_height * before, name);
       }
 
       std::string end()
@@ -86,7 +100,19 @@ namespace taut
       }
 
     private:
-      static constexpr double margin = 40., legend_width = 620.;
+      static constexpr double margin = 40., legend_width = 620., mass_distance = 16.;
+
+      void text(const double x, const double y, const std::string &name)
+      {
+        std::string safe;
+        for (const char c : name)
+          safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+        out << "<text x=\"" << x << "\" y=\"" << y << "\">" << safe << "</text>\n";
+      }
+      std::pair<long, long> pixel(const Coordinates &p) const
+      {
+        return {std::lround(X(p)), std::lround(Y(p))};
+      }
       double X(const Coordinates &p) const
       {
         return margin + .5 * width + (p.x - .5 * (left + right)) * sx;
@@ -98,7 +124,7 @@ namespace taut
 
       double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
       double sx = 1., sy = 1., width = 0., height = 0.;
-      std::map<std::pair<long, long>, int> n_labels; ///< at a pixel
+      std::map<std::pair<long, long>, int> n_labels, n_masses; ///< at a pixel
       std::ostringstream out;
     };
 
@@ -228,6 +254,43 @@ namespace taut
       sketch.dot(end, link.moving() ? 5. : 2.5,
                  link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
     }
+
+    /// The most masses at one place.
+    int most_at_one_place(const std::vector<Mass> &masses)
+    {
+      std::map<std::tuple<double, double, double>, int> n;
+      int most = 0;
+      for (const Mass &mass : masses)
+        most = std::max(most, ++n[{mass.position.x, mass.position.y, mass.position.z}]);
+      return most;
+    }
+
+    /// Labels of wires. Of many whose names differ in a number at the end only the first one has a
+    /// label: "stitch 1 to 11".
+    std::vector<std::string> labels_of(const std::vector<Wire> &wires)
+    {
+      constexpr std::size_t many = 3;
+      const auto family = [](const std::string &name)
+      {
+        const std::size_t last = name.find_last_not_of("0123456789");
+        return last == std::string::npos ? "" : name.substr(0, last + 1);
+      };
+      std::map<std::string, std::vector<std::size_t>> members;
+      for (std::size_t w = 0; w < wires.size(); ++w)
+        members[family(wires[w].name)].push_back(w);
+      std::vector<std::string> labels;
+      for (const Wire &wire : wires)
+        labels.push_back(wire.name);
+      for (const auto &[name, of] : members)
+      {
+        if (of.size() < many || name.empty())
+          continue;
+        labels[of.front()] += " to " + wires[of.back()].name.substr(name.size());
+        for (std::size_t m = 1; m < of.size(); ++m)
+          labels[of[m]].clear();
+      }
+      return labels;
+    }
   } // namespace
 
   void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path)
@@ -235,7 +298,7 @@ namespace taut
     Sketch sketch;
     const std::vector<Lines> outlines = outlines_of(scene, places);
     include_all(scene, places, outlines, sketch);
-    sketch.begin();
+    sketch.begin(most_at_one_place(scene.masses));
     const std::string thick = "stroke=\"black\" stroke-width=\"2\"";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
       draw_link(scene.links[i], places.from[i], places.to[i], sketch);
@@ -249,10 +312,12 @@ namespace taut
       if (!cable.empty() || !outlines[b].empty())
         sketch.label(cable.empty() ? outlines[b][0].first : cable[0], scene.bodies[b].name);
     }
-    for (const Wire &wire : scene.wires)
+    const std::vector<std::string> labels = labels_of(scene.wires);
+    for (std::size_t w = 0; w < scene.wires.size(); ++w)
     {
-      sketch.line(wire.a, wire.b, thick);
-      sketch.label(wire.a, wire.name);
+      sketch.line(scene.wires[w].a, scene.wires[w].b, thick);
+      if (!labels[w].empty())
+        sketch.label(scene.wires[w].a, labels[w]);
     }
     for (const Spring &spring : scene.springs)
       if (spring.from != ground && spring.to != ground)
@@ -262,10 +327,7 @@ namespace taut
       for (const double s : support.positions)
         sketch.dot(scene.wires[support.wire].at(s), 3.5, "fill=\"#36c\"");
     for (const Mass &mass : scene.masses)
-    {
-      sketch.dot(mass.position, 5., "fill=\"#393\"");
-      sketch.label(mass.position, mass.name);
-    }
+      sketch.mass(mass.position, mass.name);
     write_file(path, sketch.end());
   }
 } // namespace taut

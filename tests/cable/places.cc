@@ -325,3 +325,28 @@ TEST(CablePlaces, entries_without_effect_are_named)
   }
   EXPECT_FALSE(has(silent.log(), "not used")) << silent.log();
 }
+
+// Claim: wires that differ in a number have one label, and masses at one place hang below each
+// other, 16 pixels apart.
+TEST(CablePlaces, a_sketch_of_a_line_names_families_once_and_draws_chains_of_masses)
+{
+  Session session("Generator = network; Gravity = 0, 0; Start = undeformed\n"
+                  "Network: Wires = w 1, w 2, w 3; Masses = head, frame\n"
+                  "Wire w 1: To = 10, 0; Components = string; Tension = 1e3; Mass per length = 1\n"
+                  "Wire w 2: From = 10, 0; To = 20, 0; Components = string; Tension = 1e3; "
+                  "Mass per length = 1\n"
+                  "Wire w 3: From = 20, 0; To = 30, 0; Components = string; Tension = 1e3; "
+                  "Mass per length = 1\n"
+                  "Mass head: Position = 5, -1; Mass = 1\n"
+                  "Mass frame: Position = 5, -1; Mass = 1\n"
+                  "Time: End = 0; Step = 0.01\n");
+  const ScenePlaces places =
+      places_in_space(session.simulation().scene(), session.simulation().structure());
+  write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
+  const std::string drawing = file_text(session.folder() + ".svg");
+  std::remove((session.folder() + ".svg").c_str());
+  expect(drawing, {">w 1 to 3</text>", ">head</text>", ">frame</text>"});
+  EXPECT_FALSE(has(drawing, ">w 2"));
+  // 30 x 1 m on 1000 pixels of width; the height is 120 pixels at least, and 16 for the chain.
+  expect(drawing, {"height=\"216\"", "cy=\"160\" r=\"5\"", "cy=\"176\" r=\"5\""});
+}
