@@ -34,6 +34,14 @@ namespace taut
     return "";
   }
 
+  double TurningDirection::reel_rate(const double t, const double step) const
+  {
+    // Backward differences of second order: a table ends with the run. Their error is below 1e-5 of
+    // a change of the rate in a step.
+    const double delta = 1e-2 * step;
+    return length_at ? (4. * reeled(t - delta, t) - reeled(t - 2. * delta, t)) / (2. * delta) : 0.;
+  }
+
   std::vector<const std::vector<Term> *> TurningDirection::forms() const
   {
     return {&motion[0], &motion[1], &motion[2]};

@@ -50,6 +50,18 @@ namespace taut
         result->length = link.unstressed_length;
       else
         result->length -= result->sign * link.gap;
+      if (!link.length_in_time.is_zero())
+        result->length_at =
+            [of_time = link.length_in_time, name = link.name, origin = link.origin](const double t)
+        {
+          const double length = of_time(0., t);
+          if (!(length > 0.))
+            throw EntryError(origin.empty() ? "" : origin + "/Length",
+                             to_text("link '", name, "' has a length of ", length, " m at t = ", t,
+                                     " s: end the run before it is reeled in, or give a positive "
+                                     "length"));
+          return length;
+        };
       if (!(result->length > 0.))
         throw EntryError(link.origin.empty() ? "" : link.origin + "/Gap",
                          "link '" + link.name +

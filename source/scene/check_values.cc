@@ -172,6 +172,11 @@ namespace taut
         of.not_negative(link.damping, "Damping");
         of.finite(link.gap, "Gap");
         of.not_negative(link.unstressed_length, "Length");
+        if (!link.length_in_time.is_zero() &&
+            !(link.turns && link.length_in_time(0., 0.) == link.unstressed_length))
+          throw EntryError(link.origin, "link '" + link.name +
+                                            "' has a length over time and another one at t = 0, or "
+                                            "does not turn");
         of.finite(link.speed, "Speed");
         of.constant(link.profile, "Height profile");
         of.finite(link.form.prescribed_displacement, "Prescribed displacement");

@@ -77,7 +77,8 @@ namespace taut
       std::vector<double> direction, axis, second_axis;
       bool rotational = false, find_length = false, find_direction = false, turns = false,
            straight = false, faster_than_waves = false;
-      double damping = 0., gap = 0., length = 0.;
+      double damping = 0., gap = 0.;
+      std::string length = "0";
       std::string speed = "0", strip;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0., pull = 0.;
       void declare(dealii::ParameterHandler &prm);

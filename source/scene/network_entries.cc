@@ -212,7 +212,8 @@ namespace taut
                        link.rigid() ? "rigid" : written_number(link.stiffness));
       items.set_number(0., "Damping", link.damping);
       if (has_length)
-        items.set("Length", written_number(link.unstressed_length));
+        items.set("Length", link.length_in_time.is_zero() ? written_number(link.unstressed_length)
+                                                          : link.length_in_time.formula());
       else
         items.set_number(0., "Gap", link.gap);
       write_speed(items, link);

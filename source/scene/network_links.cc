@@ -240,6 +240,26 @@ namespace taut
       link.stiffness = link.law->largest_stiffness();
     }
 
+    /// A number, or for a link that turns a formula or table of t.
+    void set_unstressed_length(const std::string &text, const std::string &title, Link &link)
+    {
+      const std::string entry = title + "/Length";
+      const Expression length(text, entry, Expression::Variables::time);
+      link.unstressed_length = length(0., 0.);
+      if (!(link.unstressed_length >= 0.))
+        throw EntryError(entry, to_text("it is ", link.unstressed_length,
+                                        " m at the start; give a length that is not negative"));
+      if (!length.depends_on_time())
+        return;
+      if (!link.turns)
+        throw EntryError(entry, "a length that changes with time is that of a link that turns; set "
+                                "'Turns = true', or give a number");
+      if (link.unstressed_length == 0.)
+        throw EntryError(entry, "it is 0 at the start, which would stand for the Gap; give a "
+                                "positive length");
+      link.length_in_time = length;
+    }
+
     /// The link of an item, without its ends and what follows from them.
     Link link_without_ends(const Network::LinkItem &item, const std::string &title)
     {
@@ -259,7 +279,7 @@ namespace taut
       link.damping = item.damping;
       link.gap = item.gap;
       link.turns = item.turns;
-      link.unstressed_length = item.length;
+      set_unstressed_length(item.length, title, link);
       check_turns(item, link, title);
       const Speed speed = parse_speed(item.speed, title + "/Speed");
       link.speed = speed.constant;

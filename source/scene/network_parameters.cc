@@ -209,8 +209,9 @@ namespace taut
     prm.add_parameter("Length", length,
                       "Unstressed, of a link that turns or of a dropper between wires, masses and "
                       "places of the ground: the distance of its ends at which a rope or dropper "
-                      "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",
-                      not_negative());
+                      "becomes taut or a prop touches, instead of Gap. Of a link that turns also a "
+                      "formula or table of t, as a winch reels it; 0: as Gap says [m]",
+                      Anything());
     prm.add_parameter("Rotational", rotational,
                       "Acts between slopes or rotations about Axis: moments and angular gaps");
     prm.add_parameter("Axis", axis,

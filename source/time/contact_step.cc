@@ -130,6 +130,8 @@ namespace taut
       problem.gap_scale[i] = gap_scale(i, before, std::fabs(of_spring));
       if (constraints.slides(i))
         convection[i] = gap - before.distance[i];
+      else if (constraints.turns(i))
+        convection[i] = turning.reeled(i);
       if (method.rules[i].is_on_velocity())
         set_velocity_condition(i, before);
     }
@@ -320,6 +322,8 @@ namespace taut
       for (const std::size_t i : constraints.sliding_rows())
         rate_of_place[i] += constraints.profile_rate(i, state.time, method.length);
     }
+    for (const std::size_t i : constraints.turning_rows())
+      rate_of_place[i] = constraints.turning(i).reel_rate(state.time, method.length);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       rates_before[i] = state.rate[i];

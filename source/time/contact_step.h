@@ -209,7 +209,7 @@ namespace taut
     // Rates, for schemes with mean forces.
     std::vector<double> velocity, velocity_size, rates_before;
     std::vector<double> convection;    ///< change of a gap in the step by the motion of its place
-    std::vector<double> rate_of_place; ///< D' minus B^T V of a corrected row
+    std::vector<double> rate_of_place; ///< D' minus B^T V of a corrected row, or of one that turns
 
     // Springs.
     ConstraintLaws laws;

@@ -44,6 +44,8 @@ namespace taut
     bool moves_here = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
       moves_here = moves_here || structure[k].has_moving_constraints();
+    for (const std::size_t i : constraints.turning_rows())
+      moves_here = moves_here || constraints.turning(i).length_at;
     supports_move = structure.communicator().any(moves_here);
     work.resize(rows.size());
     terms.resize(rows.size());
@@ -244,6 +246,9 @@ namespace taut
     const Row &row = rows[i];
     // What a contact stores is lost where its wire ends, and not by the step.
     if (constraints.distance_beyond(i, state.time) > 0.)
+      return 0.;
+    // A winch gives energy, and is none of the step.
+    if (constraints.turns(i) && constraints.turning(i).length_at)
       return 0.;
     const double change = state.complementarity_gap[i] - row.gap;
     const bool is_mean = report.is_mean(i);

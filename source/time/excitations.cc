@@ -210,6 +210,10 @@ namespace taut
         all.push_back({"the prescribed place of '" + body.name() + "'", body.origin(), false, false,
                        moving[i]->motion});
     }
+    for (const std::size_t i : constraints.turning_rows())
+      if (const auto &length = constraints.turning(i).length_at)
+        all.push_back({"the length of '" + constraints[i].name + "'", constraints.origin(i), false,
+                       false, length});
     for (const std::size_t i : constraints.sliding_rows())
       if (const auto *place = dynamic_cast<const MovingPlace *>(constraints[i].geometry.get()))
         all.push_back({"the height under '" + constraints[i].name + "'", constraints.origin(i),

@@ -22,7 +22,7 @@ namespace taut
       for (const std::size_t i : constraints.turning_rows())
       {
         const TurningDirection &turning = constraints.turning(i);
-        others = others || turning.sign * N[i] > 0.;
+        others = others || turning.sign * N[i] > 0. || turning.length_at;
         for (const std::vector<Term> &motion : turning.motion)
           for (const Term &term : motion)
             others = others || !result.linearised[structure.number(term.substructure)];

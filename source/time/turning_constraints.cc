@@ -47,6 +47,7 @@ namespace taut
   {
     if (empty())
       return;
+    time = state.time;
     constraints.copy_differences(reference.displacement, state.U, start);
     face_start();
   }
@@ -62,8 +63,10 @@ namespace taut
   {
     face_start();
     used = next;
-    offsets.assign(start.size(), 0.);
-    next_offsets = increments = offsets;
+    reels.clear();
+    for (const std::size_t i : constraints.turning_rows())
+      reels.push_back(constraints.turning(i).reeled(time, time + method.length));
+    offsets = next_offsets = increments = reels;
   }
 
   double TurningConstraints::set_guess(const BodyVectors &dU, const State &before,
@@ -84,7 +87,7 @@ namespace taut
       const Coordinates sum = add_scaled(start[k], 1., end[k]);
       const double size = norm(end[k]), sizes = norm(start[k]) + size;
       // Avoids cancellation.
-      increments[k] = sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.;
+      increments[k] = reels[k] + (sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.);
       const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
                    gap = before.distance[i] + increments[k] + history[i];
       const bool is_open = constraints[i].cone.rests_open(N[i], gap);
@@ -93,7 +96,7 @@ namespace taut
       if (turning.vanishes(end[k]) || turning.vanishes(start[k]))
         continue;
       next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end[k]);
-      next_offsets[k] = is_mean ? 0. : increments[k] - turning.sign * dot(next[k], motion[k]);
+      next_offsets[k] = is_mean ? reels[k] : increments[k] - turning.sign * dot(next[k], motion[k]);
       if (is_open)
         continue;
       const double change = std::max(weight_of_direction * norm(next[k] - used[k]),
@@ -133,6 +136,6 @@ namespace taut
 
   double TurningConstraints::surplus(const std::size_t i, const double N, const double motion) const
   {
-    return method.has_means() ? 0. : N * (motion - increment(i));
+    return method.has_means() ? 0. : N * (motion - (increment(i) - reeled(i)));
   }
 } // namespace taut

@@ -59,14 +59,17 @@ namespace taut
     /// What the gap of the form B_i differs by from that of the state before, at dU = 0 [m].
     double offset(const std::size_t i) const { return offsets[constraints.turning_index(i)]; }
 
+    /// The part of D_1 - D_0 by a change of the length, as a winch makes it [m].
+    double reeled(const std::size_t i) const { return reels[constraints.turning_index(i)]; }
+
     /// D_1 - D_0 of the last guess, without a spring [m].
     double increment(const std::size_t i) const { return increments[constraints.turning_index(i)]; }
 
     /// |Delta_0| [m].
     double distance(const std::size_t i) const { return norm(start[constraints.turning_index(i)]); }
 
-    /// Work of a force N on the bodies in the step, in which B^T dU is @p motion, beyond
-    /// N (D_1 - D_0): 0 with mean forces [J].
+    /// Work of a force N on the bodies in the step, in which B^T dU is @p motion, beyond N times
+    /// the motion of the ends along the link: 0 with mean forces [J].
     double surplus(std::size_t i, double N, double motion) const;
 
   private:
@@ -76,10 +79,11 @@ namespace taut
     const Constraints &constraints;
     const Reference &reference;
     const StepMethod &method;
+    double time = 0.;               ///< of Delta_0 [s]
     std::vector<Coordinates> start; ///< Delta_0
     std::vector<Coordinates> used;  ///< directions of B_i
     std::vector<Coordinates> next;  ///< directions of the guess
-    std::vector<double> offsets, next_offsets, increments;
+    std::vector<double> offsets, next_offsets, increments, reels;
     std::vector<Coordinates> end;    ///< Delta_1 of the last guess
     std::vector<Coordinates> motion; ///< Delta_1 - Delta_0 of the last guess
   };

@@ -101,15 +101,28 @@ namespace taut
     /// Motion along x, y, z of the second end, then minus that of the first, on this rank [m].
     std::array<std::vector<Term>, 3> motion;
     Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
-    double length = 1.; ///< |Delta| at D = 0, positive [m]
-    double sign = 1.;   ///< 1: N > 0 pushes the ends apart; -1: it pulls them together
+    double length = 1.; ///< |Delta| at D = 0, positive; at t = 0 where it changes [m]
+
+    /// The length over time [s], positive, as a winch reels it in and out; empty: it is constant
+    /// [m].
+    std::function<double(double)> length_at = {};
+    double sign = 1.; ///< 1: N > 0 pushes the ends apart; -1: it pulls them together
 
     Kind kind() const override { return Kind::turning; }
     std::string fault() const override;
     std::vector<const std::vector<Term> *> forms() const override;
 
-    /// D without a spring, at the difference of the ends [m].
+    /// D without a spring at t = 0, at the difference of the ends [m].
     double gap(const Coordinates &difference) const { return sign * (norm(difference) - length); }
+
+    /// What a change of the length from one time to another adds to D, 0 if it is constant [s, m].
+    double reeled(const double from, const double to) const
+    {
+      return length_at ? sign * (length_at(from) - length_at(to)) : 0.;
+    }
+
+    /// Its rate at the end of a step of this length, from differences within the step [s, m/s].
+    double reel_rate(double t, double step) const;
 
     /// True if the ends are closer than a millionth of the length: they have no direction.
     bool vanishes(const Coordinates &difference) const

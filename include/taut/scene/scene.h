@@ -297,6 +297,10 @@ namespace taut
     bool turns = false;
     double unstressed_length = 0.; ///< once known [m]; for a link that turns 0: from `gap`
 
+    /// Unstressed length of a link that turns over time, as a winch reels it; what it has at t = 0
+    /// is `unstressed_length`. Zero: it is constant [m].
+    Expression length_in_time;
+
     double speed = 0.; ///< of the `to` end along its wire [m/s]
 
     /// Way of the `to` end in time; null: the constant speed.

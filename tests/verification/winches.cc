@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the length of a rope, prop or rod may change with time. Masses are where the length says,
+// and the force is that of Newton's law with its second derivative; a pendulum whose rope is reeled
+// in swings as its equation of motion says; what is reeled out faster than it falls is slack.
+// Sources: closed forms; the equation of motion of a pendulum of length L(t),
+// L a'' + 2 L' a' + g sin a = 0, by Runge-Kutta's method.
+#include "turning_scene.h"
+
+#include <array>
+
+using namespace turning;
+
+namespace
+{
+  constexpr double m = 2., lift = .3; // L = 2 - 0.3 t^2
+
+  Scene lifted(const std::string &entries, const double end)
+  {
+    Scene scene;
+    scene.masses = {{m, {0., -2., 0.}, {}}};
+    scene.links = {"Type = dropper; From = ground @ 0, 0; To = m0; " + entries};
+    scene.end = end;
+    return scene;
+  }
+
+  double length(const double t)
+  {
+    return 2. - lift * t * t;
+  }
+
+  const std::vector<Overrides> schemes = {
+      {}, {"Time/Scheme=backward Euler"}, {"Time/Scheme=Moreau-Jean"}};
+
+  /// Angle, and its rate, of a pendulum of length 1 - speed t.
+  std::array<double, 2> swing(const double angle, const double speed, const double end)
+  {
+    using State = std::array<double, 2>;
+    constexpr int n = 20000;
+    const double h = end / n;
+    const auto rate = [&](const double t, const State &x)
+    {
+      const double L = 1. - speed * t;
+      return State{x[1], (2. * speed * x[1] - g * std::sin(x[0])) / L};
+    };
+    State x = {angle, 0.};
+    for (int i = 0; i < n; ++i)
+    {
+      const auto shifted = [&](const double s, const State &k) {
+        return State{x[0] + s * k[0], x[1] + s * k[1]};
+      };
+      const double t = i * h;
+      const State a = rate(t, x), b = rate(t + .5 * h, shifted(.5 * h, a)),
+                  c = rate(t + .5 * h, shifted(.5 * h, b)), d = rate(t + h, shifted(h, c));
+      for (unsigned int j = 0; j < 2; ++j)
+        x[j] += h / 6. * (a[j] + 2. * b[j] + 2. * c[j] + d[j]);
+    }
+    return x;
+  }
+} // namespace
+
+TEST(Winches, mass_that_is_lifted_is_where_the_length_says)
+{
+  for (const Overrides &scheme : schemes)
+    for (const std::string type : {"dropper", "joint"})
+    {
+      double place = 0., force = 0.;
+      Scene scene = lifted("Length = 2-0.3*t^2", 1.);
+      if (type == "joint")
+        scene.links[0].replace(scene.links[0].find("dropper"), 7, type);
+      scene.run(
+          [&](const Motion &now)
+          {
+            verification::raise(place, now.place[0].y + length(now.time));
+            if (now.time > .1) // the start has no acceleration
+              verification::raise(force, std::fabs(now.multiplier[0]) / (m * (g + 2. * lift)) - 1.);
+          },
+          scheme);
+      SCOPED_TRACE(type + (scheme.empty() ? std::string() : ", " + scheme[0]));
+      EXPECT_LE(verification::figure("mass that is lifted, error of its place [m]", place), 1e-9);
+      EXPECT_LE(verification::figure("mass that is lifted, error of the force", force), 1e-3);
+    }
+}
+
+TEST(Winches, mass_on_a_spring_swings_about_where_the_length_says)
+{
+  constexpr double k = 2e4;
+  const double omega = std::sqrt(k / m);
+  double error = 0.;
+  lifted("Length = 2-0.3*t^2; Stiffness = " + number(k), 1.)
+      .run(
+          [&](const Motion &now)
+          {
+            const double stretch = m / k * (g + 2. * lift * (1. - std::cos(omega * now.time)));
+            verification::raise(error, now.place[0].y + length(now.time) + stretch);
+          },
+          {"Time/Step=2e-4"});
+  EXPECT_LE(verification::figure("mass on a spring that is lifted, error over its swing",
+                                 error * k / (2. * lift * m)),
+            .02);
+}
+
+TEST(Winches, pendulum_that_is_reeled_in_follows_its_equation)
+{
+  constexpr double angle = .5, speed = .2, end = 2.;
+  const std::array<double, 2> expected = swing(angle, speed, end);
+  const auto error = [&](const double step, const Overrides &scheme)
+  {
+    double result = 0.;
+    Scene scene = thrown({{m,
+                           {std::sin(angle), -std::cos(angle), 0.},
+                           {-speed * std::sin(angle), speed * std::cos(angle), 0.}}},
+                         {rope("ground @ 0, 0", "m0", 1.)}, end, step);
+    scene.links[0] += "-" + number(speed) + "*t";
+    scene.run([&](const Motion &now)
+              { result = std::atan2(now.place[0].x, -now.place[0].y) - expected[0]; },
+              scheme);
+    return std::fabs(result);
+  };
+  const double fine = error(1e-3, {}), rough = error(2e-3, {});
+  EXPECT_LE(verification::figure("pendulum that is reeled in, error of its angle", fine), 1e-4);
+  EXPECT_GE(rough / fine, 3.); // of second order
+  EXPECT_LE(error(1e-3, {"Time/Scheme=backward Euler"}), 2e-2);
+}
+
+TEST(Winches, what_is_reeled_out_faster_than_it_falls_is_slack)
+{
+  for (const Overrides &scheme : schemes)
+  {
+    double place = 0., force = 0.;
+    lifted("Length = 2+6*t^2", .5)
+        .run(
+            [&](const Motion &now)
+            {
+              verification::raise(place, now.place[0].y + 2. + .5 * g * now.time * now.time);
+              if (now.time > 0.)
+                verification::raise(force, now.multiplier[0]);
+            },
+            scheme);
+    EXPECT_LE(place, 1e-2);
+    EXPECT_EQ(force, 0.);
+  }
+}
+
+// A prop that grows pushes a mass up.
+TEST(Winches, prop_that_grows_lifts)
+{
+  Scene scene;
+  scene.masses = {{m, {0., 1., 0.}, {}}};
+  scene.links = {"Type = stop; From = ground @ 0, 0; To = m0; Length = 1+0.3*t^2"};
+  scene.end = 1.;
+  double place = 0.;
+  scene.run([&](const Motion &now)
+            { verification::raise(place, now.place[0].y - 1. - lift * now.time * now.time); });
+  EXPECT_LE(place, 1e-9);
+}
+
+TEST(Winches, impossible_lengths_are_refused)
+{
+  const auto error = [](const Scene &scene)
+  { return verification::error_of([&] { scene.run([](const Motion &) {}); }); };
+  EXPECT_TRUE(has(error(lifted("Length = 2-t", 3.)), "Link l0/Length: link 'l0' has a length of "));
+  EXPECT_TRUE(has(error(lifted("Length = t", 1.)), "it is 0 at the start"));
+  EXPECT_TRUE(has(error(lifted("Length = -1", 1.)), "it is -1 m at the start"));
+  EXPECT_TRUE(has(error(lifted("Length = 2-s", 1.)), "Length"));
+  Scene straight = lifted("Length = 2-0.1*t; Direction = 0, -1", 1.);
+  std::string text = straight.parameters();
+  text.replace(text.find("Turns = true; "), 14, "");
+  EXPECT_TRUE(
+      has(verification::error_of([&] { verification::run_scene(text, {}, [](const auto &) {}); }),
+          "set 'Turns = true', or give a number"));
+}
