@@ -29,6 +29,29 @@ class Link:
         return max(np.abs(self.least - self.force[0]).max(), np.abs(self.largest - self.force[0]).max())
 
 
+class Magnitude:
+    """The force of a joint, of which links.csv has components; between the times there only these are known."""
+
+    has_band = False
+
+    def __init__(self, name, components):
+        self.name, self.unit = f"{name}, magnitude", components[0].unit
+        self.force = self.least = self.largest = np.sqrt(sum(link.force**2 for link in components))
+        self.is_open = np.zeros(len(self.force), bool)
+
+    change = Link.change
+
+
+def with_magnitudes(links):
+    """One link in the place of the components of a joint, which are in its name 'NAME x', 'NAME y' and 'NAME z'."""
+    parts = {}
+    for link in links:
+        name, blank, axis = link.name.rpartition(" ")
+        key = (name, link.unit) if blank and axis in ("x", "y", "z") else (link.name, link.unit, link)
+        parts.setdefault(key, []).append(link)
+    return [of[0] if len(of) == 1 else Magnitude(key[0], of) for key, of in parts.items()]
+
+
 def fixed_links(results):
     """Time, and the links of links.csv in order of the scene."""
     table = results.table("links.csv")
@@ -37,7 +60,7 @@ def fixed_links(results):
     kinds = ((" force [N]", "force", "m", "N"), (" moment [N m]", "moment", "rad", "N m"))
     found = [(list(table.columns).index(name + ending), Link(table, name, *kind))
              for ending, *kind in kinds for name, _ in table.series(ending)]
-    return table.time, [link for _, link in sorted(found, key=lambda pair: pair[0])]
+    return table.time, with_magnitudes([link for _, link in sorted(found, key=lambda pair: pair[0])])
 
 
 def that_change(links):

@@ -197,6 +197,13 @@ def check_links():
     field = figure.axes[0].collections[0]
     close("force minus that of the start", field.get_array().reshape(8, 3), np.outer(np.arange(8), np.arange(3)))
     expect("joints do not set the scale", field.get_clim()[1] < 15, field.get_clim())
+    columns = {"time [s]": np.arange(3.0)}
+    for axis, force in (("x", [3, 5, 8]), ("y", [4, 12, 15]), ("z", [0, 0, 0])):
+        columns.update(link_columns(f"pin {axis}", force, force, force))
+    columns.update(link_columns("stop x", [0, 1, 2], [0, 1, 2], [0, 1, 2]))
+    first, second = draw("link_forces", folder("joints with components", links=columns)).axes
+    close("magnitude of a joint", first.get_lines()[0].get_ydata(), [5, 13, 17])
+    expect("name of a joint", (first.get_title("left"), second.get_title("left")) == ("pin, magnitude", "stop x"), first.get_title("left"))
     still = folder("still links", links={"time [s]": np.arange(3.0), **link_columns("a", [5, 5, 5], [5, 5, 5 + 1e-12], [5, 5, 5])})
     not_drawn("link_forces", still, "change by rounding only")
 
