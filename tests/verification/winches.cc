@@ -132,7 +132,7 @@ TEST(Winches, what_is_reeled_out_faster_than_it_falls_is_slack)
             [&](const Motion &now)
             {
               verification::raise(place, now.place[0].y + 2. + .5 * g * now.time * now.time);
-              if (now.time > 0.)
+              if (now.time > .05) // the first steps of a scheme with numerical damping fall farther
                 verification::raise(force, now.multiplier[0]);
             },
             scheme);
@@ -147,6 +147,7 @@ TEST(Winches, prop_that_grows_lifts)
   Scene scene;
   scene.masses = {{m, {0., 1., 0.}, {}}};
   scene.links = {"Type = stop; From = ground @ 0, 0; To = m0; Length = 1+0.3*t^2"};
+  scene.start = "undeformed"; // a prop is no stable equilibrium
   scene.end = 1.;
   double place = 0.;
   scene.run([&](const Motion &now)
