@@ -69,6 +69,7 @@ namespace taut
       std::vector<double> nodes, x; ///< s and x [m]
       Motion axial, across, slope, lateral, lateral_slope;
       double tension = 0., EA = 0., EI = 0., area = 0., diameter = 0.;
+      std::vector<double> EA_of_elements, EI_at_nodes; ///< of a wire, worn as it is
       Peak force, moment, stress;
     };
 
@@ -173,8 +174,17 @@ namespace taut
     section.EA = wire.has_axial ? wire.axial_stiffness : 0.;
     section.EI = wire.transverse == TransverseKind::beam ? wire.bending_stiffness : 0.;
     section.nodes = grid(step.scene, section.index);
-    for (const double s : section.nodes)
+    for (std::size_t i = 0; i < section.nodes.size(); ++i)
+    {
+      const double s = section.nodes[i];
       section.x.push_back(wire.at(s).x);
+      section.EI_at_nodes.push_back(section.EI *
+                                    Wire::Remaining::share(wire.remaining.bending_stiffness, s));
+      if (i > 0)
+        section.EA_of_elements.push_back(section.EA *
+                                         Wire::Remaining::share(wire.remaining.axial_stiffness,
+                                                                .5 * (section.nodes[i - 1] + s)));
+    }
     const auto find = [&](const WireMotion motion, Motion &forms)
     {
       for (const double s : section.nodes)
@@ -262,7 +272,8 @@ namespace taut
             .5 * (section.nodes[i] + section.nodes[i + 1]) < change.to)
           N += change.change;
       if (section.EA > 0.)
-        N += section.EA * (section.axial.values[i + 1] - section.axial.values[i]) / h;
+        N +=
+            section.EA_of_elements[i] * (section.axial.values[i + 1] - section.axial.values[i]) / h;
       // Of the cubic of Hermite between two nodes, at its first and its second end.
       const auto curvature = [&](const Motion &w, const Motion &theta, const bool second)
       {
@@ -274,8 +285,9 @@ namespace taut
       };
       for (const bool second : {false, true})
         take(section, N,
-             section.EI * std::hypot(curvature(section.across, section.slope, second),
-                                     curvature(section.lateral, section.lateral_slope, second)),
+             section.EI_at_nodes[second ? i + 1 : i] *
+                 std::hypot(curvature(section.across, section.slope, second),
+                            curvature(section.lateral, section.lateral_slope, second)),
              section.x[second ? i + 1 : i], step.state.time);
     }
   }

@@ -3,6 +3,7 @@
 
 #include "base/patterns.h"
 #include "base/text.h"
+#include "scene/entries.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -28,6 +29,13 @@ namespace taut
     has_mass = has_tension = false;
     prm.add_parameter("Bending stiffness", bending_stiffness, "EI; not used by a string [N m^2]",
                       not_negative());
+    prm.add_parameter("Remaining mass", remaining_mass,
+                      "Share of Mass per length that a worn wire has left: a number, or a formula "
+                      "or table of s (= x) [1]",
+                      Anything());
+    prm.add_parameter("Remaining bending stiffness", remaining_bending,
+                      "Share of Bending stiffness that a worn wire has left, as Remaining mass [1]",
+                      Anything());
     prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
                       not_negative());
     prm.add_parameter("Degree", degree, "Polynomial degree of string elements [1]", Integer(1, 4));
@@ -66,24 +74,6 @@ namespace taut
     check(has_tension, "Tension", usual.tension, "N");
   }
 
-  Wire LineWireItem::wire(const std::string &name, const std::string &section, const Coordinates &a,
-                          const Coordinates &b) const
-  {
-    Wire wire;
-    wire.name = name;
-    wire.origin = "Catenary/" + section;
-    wire.a = a;
-    wire.b = b;
-    wire.mass_per_length = mass_per_length;
-    wire.transverse = model == "beam" ? TransverseKind::beam : TransverseKind::string;
-    wire.tension = tension;
-    wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
-    wire.degree = degree;
-    wire.element_size = element_size;
-    wire.damping = {mass_damping, stiffness_damping};
-    return wire;
-  }
-
   namespace
   {
     /// A formula in s = x as one in the s of a wire that begins at x = @p begin [m]. Tables take
@@ -107,6 +97,28 @@ namespace taut
       return result + std::regex_replace(formula.substr(end), s, "(" + shifted + ")");
     }
   } // namespace
+
+  Wire LineWireItem::wire(const std::string &name, const std::string &section, const Coordinates &a,
+                          const Coordinates &b) const
+  {
+    Wire wire;
+    wire.name = name;
+    wire.origin = "Catenary/" + section;
+    wire.a = a;
+    wire.b = b;
+    wire.mass_per_length = mass_per_length;
+    wire.transverse = model == "beam" ? TransverseKind::beam : TransverseKind::string;
+    wire.tension = tension;
+    wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
+    const auto remaining = [&](const std::string &formula, const char *const entry)
+    { return remaining_share(along_wire(formula, a.x), wire.origin + entry); };
+    wire.remaining.mass = remaining(remaining_mass, "/Remaining mass");
+    wire.remaining.bending_stiffness = remaining(remaining_bending, "/Remaining bending stiffness");
+    wire.degree = degree;
+    wire.element_size = element_size;
+    wire.damping = {mass_damping, stiffness_damping};
+    return wire;
+  }
 
   Expression LineWireItem::wind_load(const std::string &section, const double begin) const
   {

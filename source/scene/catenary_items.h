@@ -18,6 +18,7 @@ namespace taut
     double mass_damping = 0.0125, stiffness_damping = 1e-4;
     unsigned int degree = 2;
     std::string wind = "0", vertical_load = "0";
+    std::string remaining_mass = "1", remaining_bending = "1";
 
     /// Whether the parameter file says them: they have no silent default.
     bool has_mass = false, has_tension = false;

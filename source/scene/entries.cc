@@ -107,6 +107,18 @@ namespace taut
     return value;
   }
 
+  Expression remaining_share(const std::string &formula, const std::string &entry)
+  {
+    const Expression share(formula, entry, Expression::Variables::position);
+    if (!share.is_constant())
+      return share;
+    if (!(share(0., 0.) > 0.))
+      throw EntryError(entry, "'" + formula +
+                                  "' is not positive; give the share that is left, 1 for a wire as "
+                                  "new");
+    return share(0., 0.) == 1. ? Expression() : share;
+  }
+
   Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry)
   {
     if (components.size() != 2 && components.size() != 3)

@@ -30,6 +30,10 @@ namespace taut
   std::shared_ptr<const ForceLaw> parse_table_law(const std::string &points,
                                                   const std::string &entry);
 
+  /// The share of a property that a wire has left, as a function of s; zero for "1", all of it.
+  /// Throws EntryError for a number that is not positive.
+  Expression remaining_share(const std::string &formula, const std::string &entry);
+
   /// A point "x, y" or "x, y, z"; two numbers are in the plane z = 0.
   Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry);
 

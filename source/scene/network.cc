@@ -97,6 +97,10 @@ namespace taut
       wire.has_lateral = contains(item.components, "lateral");
       wire.tension = item.tension;
       wire.bending_stiffness = item.bending_stiffness;
+      wire.remaining = {
+          remaining_share(item.remaining_mass, title + "/Remaining mass"),
+          remaining_share(item.remaining_axial, title + "/Remaining axial stiffness"),
+          remaining_share(item.remaining_bending, title + "/Remaining bending stiffness")};
       wire.degree = item.degree;
       wire.mass_matrix = item.mass_matrix == "lumped"    ? MassMatrix::lumped
                          : item.mass_matrix == "reduced" ? MassMatrix::reduced

@@ -26,6 +26,7 @@ namespace taut
       std::vector<double> from = {0., 0.}, to = {1., 0.};
       std::vector<std::string> components;
       double mass_per_length = 0., axial_stiffness = 0., tension = 0., bending_stiffness = 0.;
+      std::string remaining_mass = "1", remaining_axial = "1", remaining_bending = "1";
       unsigned int degree = 2;
       std::string mass_matrix = "consistent";
       double element_size = 1., mass_damping = 0., stiffness_damping = 0.;

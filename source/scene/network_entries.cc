@@ -76,6 +76,11 @@ namespace taut
       items.set_number(0., "Axial stiffness", wire.axial_stiffness);
       items.set_number(0., "Tension", wire.tension);
       items.set_number(0., "Bending stiffness", wire.bending_stiffness);
+      const auto set_remaining = [&](const std::string &of, const Expression &share)
+      { items.set_text("1", "Remaining " + of, share.is_zero() ? "1" : share.formula()); };
+      set_remaining("mass", wire.remaining.mass);
+      set_remaining("axial stiffness", wire.remaining.axial_stiffness);
+      set_remaining("bending stiffness", wire.remaining.bending_stiffness);
       items.set_text("2", "Degree", std::to_string(wire.degree));
       items.set_text("consistent", "Mass matrix",
                      wire.mass_matrix == MassMatrix::lumped    ? "lumped"

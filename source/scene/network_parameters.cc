@@ -5,6 +5,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <tuple>
+
 namespace taut
 {
   namespace
@@ -61,6 +63,14 @@ namespace taut
     prm.add_parameter("Tension", tension, "T, for a string or beam [N]", not_negative());
     prm.add_parameter("Bending stiffness", bending_stiffness, "EI, for a beam [N m^2]",
                       not_negative());
+    for (const auto &[entry, of, share] :
+         {std::tuple("Remaining mass", "Mass per length", &remaining_mass),
+          {"Remaining axial stiffness", "Axial stiffness", &remaining_axial},
+          {"Remaining bending stiffness", "Bending stiffness", &remaining_bending}})
+      prm.add_parameter(entry, *share,
+                        "Share of " + std::string(of) +
+                            " that a worn wire has left: a number, or a formula or table of s [1]",
+                        Anything());
     prm.add_parameter("Degree", degree, "Polynomial degree of bar and string elements [1]",
                       Integer(1, 4));
     prm.add_parameter("Mass matrix", mass_matrix,

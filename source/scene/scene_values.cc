@@ -61,7 +61,8 @@ namespace taut
       void write(const Wire &w)
       {
         all(w.name, w.origin, w.a, w.b, w.mass_per_length, w.has_axial, w.axial_stiffness,
-            w.transverse, w.has_lateral, w.tension, w.bending_stiffness, w.degree, w.mass_matrix,
+            w.transverse, w.has_lateral, w.tension, w.bending_stiffness, w.remaining.mass,
+            w.remaining.axial_stiffness, w.remaining.bending_stiffness, w.degree, w.mass_matrix,
             w.element_size, w.damping.mass, w.damping.stiffness, w.tension_changes,
             w.foundation_stiffness, w.foundation_damping, w.weight, w.axial_start,
             w.transverse_start, w.lateral_start);

@@ -295,6 +295,9 @@ namespace taut
     std::vector<LinearForm> inertial;
     // Elements whose lengths differ by the rounding of their positions alone share their matrices.
     const double rounding = 4. * std::numeric_limits<double>::epsilon() * wire_length;
+    const bool is_worn = !wire.remaining.mass.is_zero() ||
+                         !wire.remaining.bending_stiffness.is_zero() ||
+                         (is_axial && !wire.remaining.axial_stiffness.is_zero());
     double length = -1., stretch = 0.;
     std::size_t e = 0;
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
@@ -302,10 +305,11 @@ namespace taut
       const double own_length = nodes[e + 1] - nodes[e];
       const double own_stretch =
           is_axial ? wire.axial_stiffness : tension_at(wire, .5 * (nodes[e] + nodes[e + 1]));
-      if (std::fabs(own_length - length) > rounding || own_stretch != stretch)
+      if (is_worn || std::fabs(own_length - length) > rounding || own_stretch != stretch)
       {
         stretch = own_stretch;
-        element.compute(cell, stretch);
+        element.compute(cell, nodes[e], stretch,
+                        is_axial ? wire.remaining.axial_stiffness : Expression());
         length = own_length;
       }
       cell->get_dof_indices(dofs);
@@ -337,7 +341,7 @@ namespace taut
     std::vector<dealii::types::global_dof_index> dofs(n);
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
     {
-      element.compute(cell, 0.);
+      element.compute(cell, 0., 0.);
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j <= i; ++j)

@@ -107,7 +107,11 @@ namespace taut
     if (scene.wires[wire].weight && gravity != 0.)
     {
       Load load;
+      load.name = "weight";
+      load.origin = scene.wires[wire].origin;
       load.magnitude = Expression(1.);
+      if (!scene.wires[wire].remaining.mass.is_zero())
+        load.magnitude = scene.wires[wire].remaining.mass;
       DistributedLoad(*this, scene.wires[wire].mass_per_length * gravity, load)
           .add(0., constant_force);
     }

@@ -107,7 +107,21 @@ namespace taut
     bool has_lateral = false;      ///< resists lateral motion like transverse motion
     double tension = 0.;           ///< T [N]
     double bending_stiffness = 0.; ///< EI [N m^2]
-    unsigned int degree = 2;       ///< of bar and string elements
+
+    /// What a worn wire has left of these values at s; zero: all of it [1].
+    struct Remaining
+    {
+      Expression mass, axial_stiffness, bending_stiffness;
+
+      /// At s [m].
+      static double share(const Expression &of, const double s)
+      {
+        return of.is_zero() ? 1. : of(s, 0.);
+      }
+    };
+    Remaining remaining;
+
+    unsigned int degree = 2; ///< of bar and string elements
     MassMatrix mass_matrix = MassMatrix::consistent;
     double element_size = 1.; ///< largest element [m]
     RayleighDamping damping;
