@@ -19,10 +19,6 @@ namespace taut
     /// each step.
     constexpr unsigned int n_chebyshev = 12, n_compared = 4;
 
-    /// Error of a polynomial over the largest value near it. The panels of a wire that is cut are
-    /// others: what its parts make of a load then differs by less than what steps are compared to.
-    constexpr double of_panel = .1 * LoadIntegral::of_polynomial;
-
     /// Times of a window at which the load is looked at in each element.
     constexpr unsigned int n_looks = 8;
     constexpr int no_window = std::numeric_limits<int>::min();
@@ -119,7 +115,7 @@ namespace taut
         places.push_back(panel.begin + panel.length * u);
       load.magnitude.evaluate(places, t, at_points);
       const double accepted =
-          of_panel *
+          LoadIntegral::of_polynomial *
           std::max({largest_of(&values[panel.first], panel.last - panel.first),
                     largest_of(at_points.data(), n_chebyshev), LoadIntegral::least_part * largest});
       for (std::size_t e = panel.first; e < panel.last; ++e)
@@ -252,9 +248,9 @@ namespace taut
         largest = std::max(largest, std::fabs(value));
         error = std::max(error, std::fabs(value_of(weights[j], at_nodes) - value));
       }
-      if (largest <= of_panel * negligible)
+      if (largest <= LoadIntegral::of_polynomial * negligible)
         continue;
-      if (error <= of_panel * std::max(largest, negligible))
+      if (error <= LoadIntegral::of_polynomial * std::max(largest, negligible))
         vectorised(
             [&P, &panel, at_nodes, first = panel.first * dofs_between]
             {

@@ -19,7 +19,8 @@ namespace taut
    * Panels are chosen for windows of time, each as long as all before it. At a few times of the
    * window the load is looked at in each element. A load that is not smooth on four elements at one
    * of them is not smooth in this window. What a time gets depends on it alone, not on earlier
-   * calls. As long as a window lasts nothing is allocated.
+   * calls. A wire that is cut has other panels, and forces that differ by what polynomials miss. As
+   * long as a window lasts nothing is allocated.
    */
   class SmoothLoad
   {
