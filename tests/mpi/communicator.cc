@@ -28,6 +28,9 @@ TEST_F(Communicator, sums_and_maxima_are_those_of_all_ranks)
   EXPECT_EQ(values, (std::vector<double>{n * (n + 1.) / 2., -1. * n * (n - 1.), 1. * n}));
   EXPECT_EQ(processes.max(r + 1.), n);
   EXPECT_EQ(processes.max(-1. - r), -1.);
+  values = {-1. * r, 1. + r};
+  processes.max(values);
+  EXPECT_EQ(values, (std::vector<double>{0., 1. * n}));
   std::vector<std::size_t> squares;
   processes.gather(r * r, squares);
   ASSERT_EQ(squares.size(), n);
