@@ -155,6 +155,22 @@ TEST(Winches, prop_that_grows_lifts)
   EXPECT_LE(place, 1e-9);
 }
 
+// The scene of prm/: m (g + pi / 4) at most, m g later, and 3.25 m below the winch at the end.
+TEST(Winches, scene_lifts_as_its_head_says)
+{
+  double most = 0., force = 0., place = 0.;
+  verification::run_scene(verification::scene_file("winch"), {},
+                          [&](const taut::StepView &view)
+                          {
+                            force = view.state.multiplier[0];
+                            most = std::max(most, force);
+                            place = view.probes[0];
+                          });
+  EXPECT_NEAR(most, 100. * (g + .25 * pi), .1);
+  EXPECT_NEAR(force, 100. * g, 1e-3);
+  EXPECT_NEAR(place, 1.75, 1e-6);
+}
+
 TEST(Winches, impossible_lengths_are_refused)
 {
   const auto error = [](const Scene &scene)
