@@ -49,9 +49,8 @@ namespace taut
     own_rows.reset();
     if (is_diagonal)
     {
-      kept.rows = rows.owned();
-      kept.block.resize(kept.rows.size());
-      std::iota(kept.block.begin(), kept.block.end(), std::size_t(0));
+      kept = rows.owned();
+      Q_entries = {};
       return;
     }
     set_stiffness(active, diagonal, compliance);
@@ -116,58 +115,62 @@ namespace taut
           products.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
     if (is_shared)
       gather(rows.communicator(), products);
-    SymmetricEntries entries;
+    Q_entries = {};
     std::vector<double> diagonal(other.size(), 0.);
     is_rigid.assign(other.size(), 0);
     for (std::size_t e = 0; e < products.size(); ++e)
       if (products.row[e] == products.column[e])
         diagonal[products.row[e]] += products.value[e];
       else
-        entries.add(products.row[e], products.column[e], products.value[e]);
+        Q_entries.add(products.row[e], products.column[e], products.value[e]);
     for (std::size_t i = 0; i < diagonal.size(); ++i)
     {
       // Q is singular for dependent rigid constraints.
-      entries.add(i, i, diagonal[i] > 0. ? diagonal[i] * (1. + dependence_shift) : 1.);
+      Q_entries.add(i, i, diagonal[i] > 0. ? diagonal[i] * (1. + dependence_shift) : 1.);
       is_rigid[i] = diagonal[i] > 0.;
       if (is_rigid[i])
         other[i] = 0.;
       own[i] = stiffness[i] == 0. ? other[i] : 0.;
     }
     if (is_shared)
-      keep_own_blocks(rows, entries);
+      keep_own_blocks(rows);
     else
     {
-      kept.rows.resize(diagonal.size());
-      std::iota(kept.rows.begin(), kept.rows.end(), std::size_t(0));
+      kept.resize(diagonal.size());
+      std::iota(kept.begin(), kept.end(), std::size_t(0));
     }
-    entries.compress();
-    Groups blocks(kept.rows.size());
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      blocks.join(entries.row[e], entries.column[e]);
-    kept.block = blocks.numbers();
-    rows.communicator().agree([&] { Q.factor(kept.rows.size(), entries, 0.); });
+    Q_entries.compress();
+    rows.communicator().agree([&] { Q.factor(kept.size(), Q_entries, 0.); });
+  }
+
+  RowBlocks InterfacePreconditioner::blocks() const
+  {
+    Groups groups(kept.size());
+    for (std::size_t e = 0; e < Q_entries.size(); ++e)
+      groups.join(Q_entries.row[e], Q_entries.column[e]);
+    return {kept, groups.numbers()};
   }
 
   /// Keeps the blocks of Q that the bodies of this rank see, in @p entries and D^-1 B_r.
-  void InterfacePreconditioner::keep_own_blocks(const RowMap &rows, SymmetricEntries &entries)
+  void InterfacePreconditioner::keep_own_blocks(const RowMap &rows)
   {
     boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      blocks.union_set(static_cast<std::size_t>(entries.row[e]),
-                       static_cast<std::size_t>(entries.column[e]));
+    for (std::size_t e = 0; e < Q_entries.size(); ++e)
+      blocks.union_set(static_cast<std::size_t>(Q_entries.row[e]),
+                       static_cast<std::size_t>(Q_entries.column[e]));
     std::vector<char> is_seen(is_rigid.size(), 0);
     for (const std::size_t i : rows.owned())
       is_seen[blocks.find_set(i)] = 1;
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
       if (scaled_B.value[e] != 0.)
         is_seen[blocks.find_set(static_cast<std::size_t>(scaled_B.row[e]))] = 1;
-    kept.rows.clear();
+    kept.clear();
     std::vector<std::size_t> position(is_rigid.size(), 0);
     for (std::size_t i = 0; i < is_rigid.size(); ++i)
       if (is_seen[blocks.find_set(i)])
       {
-        position[i] = kept.rows.size();
-        kept.rows.push_back(i);
+        position[i] = kept.size();
+        kept.push_back(i);
       }
     MatrixEntries of_B;
     for (std::size_t e = 0; e < scaled_B.size(); ++e)
@@ -175,14 +178,14 @@ namespace taut
         of_B.add(position[scaled_B.row[e]], scaled_B.column[e], scaled_B.value[e]);
     scaled_B = std::move(of_B);
     SymmetricEntries of_kept;
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      if (is_seen[blocks.find_set(static_cast<std::size_t>(entries.row[e]))])
-        of_kept.add(position[entries.row[e]], position[entries.column[e]], entries.value[e]);
-    entries = std::move(of_kept);
+    for (std::size_t e = 0; e < Q_entries.size(); ++e)
+      if (is_seen[blocks.find_set(static_cast<std::size_t>(Q_entries.row[e]))])
+        of_kept.add(position[Q_entries.row[e]], position[Q_entries.column[e]], Q_entries.value[e]);
+    Q_entries = std::move(of_kept);
     place.clear();
     for (const std::size_t i : rows.owned())
       place.push_back(position[i]);
-    own_rows = std::make_unique<const RowMap>(rows, kept.rows);
+    own_rows = std::make_unique<const RowMap>(rows, kept);
   }
 
   void InterfacePreconditioner::scale(std::vector<double> &r) const
@@ -190,13 +193,13 @@ namespace taut
     if (is_diagonal)
     {
       for (std::size_t p = 0; p < r.size(); ++p)
-        r[p] *= other[kept.rows[p]];
+        r[p] *= other[kept[p]];
       return;
     }
     jump = r;
     Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
-      r[p] = is_rigid[kept.rows[p]] ? jump[p] : other[kept.rows[p]] * r[p];
+      r[p] = is_rigid[kept[p]] ? jump[p] : other[kept[p]] * r[p];
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -219,7 +222,7 @@ namespace taut
   void InterfacePreconditioner::apply_by_owners(const std::vector<double> &r,
                                                 std::vector<double> &z) const
   {
-    jump.resize(kept.rows.size());
+    jump.resize(kept.size());
     own_rows->copy_to_holders(r.data(), jump.data());
     Q.solve(jump);
     motion.assign(T.n_dofs(), 0.);

@@ -77,7 +77,7 @@ namespace taut
 
     /// The blocks of Q that this rank has, with the owned rows: all on one rank, and with elastic
     /// constraints.
-    const RowBlocks &blocks() const { return kept; }
+    RowBlocks blocks() const;
 
     /// r = Q^-1 r on the rows of blocks(): local stiffness at a constraint, without the bodies
     /// behind; 1 / F_ii for elastic constraints and without T. Zero on inactive constraints.
@@ -88,7 +88,7 @@ namespace taut
                        const std::vector<double> &compliance);
     void add_springs();
     void set_scaling(const RowMap &rows);
-    void keep_own_blocks(const RowMap &rows, SymmetricEntries &entries);
+    void keep_own_blocks(const RowMap &rows);
     void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
@@ -104,9 +104,10 @@ namespace taut
     SparseCholesky inverse_T; ///< with springs
 
     // Of the rows that are kept, by their positions.
-    RowBlocks kept;
-    MatrixEntries scaled_B; ///< D^-1 B_r, in the order of the constraints of T
-    SparseCholesky Q;       ///< of the rigid rows, 1 on the others
+    std::vector<std::size_t> kept; ///< ascending
+    MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
+    SymmetricEntries Q_entries;    ///< of the rigid rows, 1 on the others
+    SparseCholesky Q;
 
     // Of one of several ranks, without springs.
     const RowMap *owners = nullptr;

@@ -326,7 +326,7 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const RowBlocks &blocks = preconditioner.blocks();
+    const RowBlocks blocks = preconditioner.blocks();
     const auto divide = [&](std::vector<double> &values)
     {
       for (std::size_t p = 0; p < values.size(); ++p)

@@ -42,6 +42,7 @@ namespace
       {"snap_load", 0.07},
       {"string_on_stop", 0.08},
       {"swinging_load_on_guys", 0.07},
+      {"winch", 0.07},
       {"wire_in_space", 0.07},
   };
 

@@ -299,7 +299,7 @@ TEST(DistributedLoads, smooth_ones_that_mix_place_and_time_are_those_of_gauss_po
     for (const std::string formula :
          {"3*exp(-((s-7*t-2)/(12+.1*s*t))^2)", "sin(.2*s*(1+.2*t))*sin(.05*s*t)",
           "2+cos(.1*sqrt(s^2+40)-t)", "5*exp(-(s-10.5)^2/(9+s*t))", "sin(s*t)",
-          "exp(-((sqrt(s^2+9)-5*t)/2)^2)"})
+          "exp(-((sqrt(s^2+9)-5*t)/5)^2)"})
     {
       LoadedWire wire(kind, formula);
       const taut::Wire own = wire_of(kind);
