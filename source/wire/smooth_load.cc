@@ -13,7 +13,7 @@ namespace taut
 {
   namespace
   {
-    constexpr std::size_t most_elements = 64, least_elements = 4;
+    constexpr std::size_t most_elements = 96, least_elements = 4;
 
     /// Chebyshev points of a panel, and places where its polynomial is compared with the formula in
     /// each step.
