@@ -67,7 +67,8 @@ namespace taut
     null_space_is_ready = false;
     const bool is_exact = tolerance <= options.linear_tolerance;
     const double part = is_exact ? exact_part : rough_part;
-    Sizes now = {matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1., 0.};
+    const auto largest = [&] { return problem.max(largest_gap(set, solution.gap, terms)); };
+    Sizes now = {matrix.is_iterative() ? largest() : 1., 0.};
     bool is_solved = false;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
@@ -86,8 +87,7 @@ namespace taut
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
       const Sizes last = now;
-      now = {largest_gap(set, solution.gap, terms),
-             shift == 0. ? 0. : largest_step(set, matrix, step)};
+      now = {largest(), shift == 0. ? 0. : problem.max(largest_step(set, matrix, step))};
       if (is_solved && !(now.gap < last.gap))
       {
         solution = before;
@@ -118,14 +118,16 @@ namespace taut
   {
     std::vector<double> last;
     std::vector<double> amplitude;
-    if (matrix.is_iterative() && solution.multiplier.size() == problem.size() &&
-        solution.mode_amplitude.size() == problem.n_null_space())
+    const bool goes_on = matrix.is_iterative() &&
+                         !problem.any(solution.multiplier.size() != problem.size() ||
+                                      solution.mode_amplitude.size() != problem.n_null_space());
+    if (goes_on)
     {
       last.swap(solution.multiplier);
       amplitude.swap(solution.mode_amplitude);
     }
     solution.reset(problem);
-    if (last.empty())
+    if (!goes_on)
     {
       if (matrix.is_iterative())
         gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
@@ -188,9 +190,9 @@ namespace taut
                                                 const std::vector<std::size_t> &set,
                                                 MixedComplementaritySolution &solution)
   {
-    unbalance.resize(problem.n_null_space());
+    problem.forces_on_null_space(solution.multiplier, unbalance);
     for (std::size_t k = 0; k < problem.n_null_space(); ++k)
-      unbalance[k] = -problem.null_space_load[k] - problem.null_space[k].dot(solution.multiplier);
+      unbalance[k] = -problem.null_space_load[k] - unbalance[k];
     const auto solve = [&]
     {
       return matrix.solve_with_null_space(set, rhs, problem.null_space, unbalance, shift, step,
@@ -225,10 +227,9 @@ namespace taut
       null_space_rhs.assign(problem.size(), 0.);
       problem.null_space[k].add_to(1., null_space_rhs);
       matrix.solve(set, null_space_rhs, shift, null_space_responses[k]);
+      problem.forces_on_null_space(null_space_responses[k], null_space_rhs);
       for (std::size_t l = 0; l <= k; ++l)
-        null_space_schur.set(k, l,
-                             problem.null_space[k].dot(null_space_responses[l]) +
-                                 (k == l ? problem.resistance(k) : 0.));
+        null_space_schur.set(k, l, null_space_rhs[l] + (k == l ? problem.resistance(k) : 0.));
     }
     null_space_is_ready = true;
   }
@@ -240,13 +241,11 @@ namespace taut
                                            MixedComplementaritySolution &solution)
   {
     const std::size_t n_null_space = problem.n_null_space();
-    unbalance = problem.null_space_load;
+    problem.forces_on_null_space(solution.multiplier, unbalance);
+    problem.forces_on_null_space(step, null_space_rhs);
     for (std::size_t k = 0; k < n_null_space; ++k)
-    {
-      unbalance[k] +=
-          problem.null_space[k].dot(solution.multiplier) + problem.null_space[k].dot(step);
-      unbalance[k] -= problem.resistance(k) * solution.mode_amplitude[k];
-    }
+      unbalance[k] = problem.null_space_load[k] + (unbalance[k] + null_space_rhs[k]) -
+                     problem.resistance(k) * solution.mode_amplitude[k];
     if (!null_space_schur.solve(all_vectors, unbalance, 0., amplitude))
       return false;
     for (std::size_t k = 0; k < n_null_space; ++k)

@@ -98,7 +98,7 @@ namespace taut
 
   void DenseOperator::condensed_diagonal(const std::vector<std::size_t> &wanted,
                                          const std::vector<std::size_t> &set, const double shift,
-                                         std::vector<double> &result)
+                                         const SharedRows *, std::vector<double> &result)
   {
     column.resize(n);
     result.assign(n, 0.);

@@ -48,7 +48,7 @@ namespace taut
     /// Takes the columns from the entries.
     void condensed_diagonal(const std::vector<std::size_t> &wanted,
                             const std::vector<std::size_t> &set, double shift,
-                            std::vector<double> &result) override;
+                            const SharedRows *shared, std::vector<double> &result) override;
 
   private:
     std::size_t n = 0;

@@ -9,6 +9,8 @@
 
 namespace taut
 {
+  class SharedRows;
+
   /**
    * The symmetric positive semidefinite matrix F of a mixed complementarity problem, as its solvers
    * see it: n rows, one per multiplier. In Taut F is the contact Schur complement, F = sum_k B_k^T
@@ -47,11 +49,11 @@ namespace taut
      * F_ii - F_ia F_aa^-1 F_ai of the rows @p wanted with the ordered rows a of @p set, 0
      * elsewhere: what row i moves under a unit multiplier while the rows of the set remain closed.
      * Dependent rows of the set are solved with the @p shift. The default takes one product and one
-     * solve() for each wanted row.
+     * solve() for each wanted row, which is on all ranks where rows are @p shared.
      */
     virtual void condensed_diagonal(const std::vector<std::size_t> &wanted,
                                     const std::vector<std::size_t> &set, double shift,
-                                    std::vector<double> &result);
+                                    const SharedRows *shared, std::vector<double> &result);
 
     /**
      * Solves

@@ -21,14 +21,26 @@ namespace taut
     double size_of_loads(const MixedComplementarityProblem &problem)
     {
       double result = 0.;
-      for (std::size_t k = 0; k < problem.null_space_terms.size(); ++k)
-      {
-        double largest = 0.;
+      std::vector<double> largest(problem.null_space_terms.size(), 0.);
+      for (std::size_t k = 0; k < largest.size(); ++k)
         for (const double value : problem.null_space[k].value)
-          largest = std::max(largest, std::abs(value));
-        if (largest > 0.)
-          result = std::max(result, problem.null_space_terms[k] / largest);
-      }
+          largest[k] = std::max(largest[k], std::abs(value));
+      if (problem.shared)
+        problem.shared->max(largest);
+      for (std::size_t k = 0; k < largest.size(); ++k)
+        if (largest[k] > 0.)
+          result = std::max(result, problem.null_space_terms[k] / largest[k]);
+      return result;
+    }
+
+    /// A null space vector on the rows that count on this rank in sums over all ranks.
+    LinearForm of_own_rows(const MixedComplementarityProblem &problem, const std::size_t k)
+    {
+      LinearForm result;
+      for (std::size_t e = 0; e < problem.null_space[k].index.size(); ++e)
+        if (const unsigned int i = problem.null_space[k].index[e];
+            !problem.shared || problem.shared->is_own(i))
+          result.add(i, problem.null_space[k].value[e]);
       return result;
     }
 
@@ -45,6 +57,30 @@ namespace taut
       return (b > a || std::isnan(b)) ? b : a;
     }
   } // namespace
+
+  void MixedComplementarityProblem::forces_on_null_space(const std::vector<double> &multiplier,
+                                                         std::vector<double> &result) const
+  {
+    result.resize(n_null_space());
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] = of_own_rows(*this, k).dot(multiplier);
+    if (shared)
+      shared->sum(result);
+  }
+
+  void MixedComplementarityProblem::sizes_on_null_space(const std::vector<double> &multiplier,
+                                                        std::vector<double> &result) const
+  {
+    result.assign(n_null_space(), 0.);
+    for (std::size_t k = 0; k < result.size(); ++k)
+    {
+      const LinearForm own = of_own_rows(*this, k);
+      for (std::size_t e = 0; e < own.index.size(); ++e)
+        result[k] += std::fabs(own.value[e] * multiplier[own.index[e]]);
+    }
+    if (shared)
+      shared->sum(result);
+  }
 
   std::vector<char> MixedComplementarityProblem::rows_in_null_space() const
   {
@@ -98,15 +134,17 @@ namespace taut
     if (mode_amplitude.empty())
       return;
 
-    const std::vector<double> own_terms = terms;
-    for (std::size_t k = 0; k < mode_amplitude.size(); ++k)
-    {
-      const LinearForm &vector = problem.null_space[k];
-      double largest = 0.;
-      for (const unsigned int i : vector.index)
+    const std::size_t n_modes = mode_amplitude.size();
+    std::vector<double> largest(n_modes, 0.), sums(2 * n_modes, 0.);
+    for (std::size_t k = 0; k < n_modes; ++k)
+      for (const unsigned int i : problem.null_space[k].index)
         if (multiplier[i] != 0.)
-          largest = std::max(largest, matrix.diagonal(i));
-      double weighted_terms = 0., weights = 0.;
+          largest[k] = std::max(largest[k], matrix.diagonal(i));
+    if (problem.shared)
+      problem.shared->max(largest);
+    const std::vector<double> own_terms = terms;
+    const auto add_sums = [&](const std::size_t k, const LinearForm &vector)
+    {
       for (std::size_t e = 0; e < vector.index.size(); ++e)
       {
         const std::size_t i = vector.index[e];
@@ -114,11 +152,23 @@ namespace taut
           continue;
         const double g = std::abs(vector.value[e]);
         const double weight =
-            largest > 0. ? largest / std::max(matrix.diagonal(i), negligible * largest) : 1.;
-        weighted_terms += weight * g * own_terms[i];
-        weights += weight * g * g;
+            largest[k] > 0. ? largest[k] / std::max(matrix.diagonal(i), negligible * largest[k])
+                            : 1.;
+        sums[2 * k] += weight * g * own_terms[i];
+        sums[2 * k + 1] += weight * g * g;
       }
-      const double fit = weights > 0. ? weighted_terms / weights : 0.;
+    };
+    for (std::size_t k = 0; k < n_modes; ++k)
+      if (problem.shared)
+        add_sums(k, of_own_rows(problem, k));
+      else
+        add_sums(k, problem.null_space[k]);
+    if (problem.shared)
+      problem.shared->sum(sums);
+    for (std::size_t k = 0; k < n_modes; ++k)
+    {
+      const LinearForm &vector = problem.null_space[k];
+      const double fit = sums[2 * k + 1] > 0. ? sums[2 * k] / sums[2 * k + 1] : 0.;
       const double size = std::max(std::abs(mode_amplitude[k]), fit);
       for (std::size_t e = 0; e < vector.index.size(); ++e)
         terms[vector.index[e]] += std::abs(vector.value[e]) * size;
@@ -151,6 +201,7 @@ namespace taut
     double largest = 0.;
     for (const double value : multiplier)
       largest = std::max(largest, std::abs(value));
+    largest = problem.max(largest);
     const double loads = size_of_loads(problem);
     if (largest < balanced * loads)
       largest = loads;
@@ -178,6 +229,27 @@ namespace taut
       result.rows[i] = relative(std::abs(violation), terms[i]);
       result.max = larger(result.max, result.rows[i]);
     }
+    result.max = problem.max(result.max);
+    std::vector<double> &sums = result.sums;
+    sums.assign(2 * problem.n_null_space(), 0.);
+    const auto add_sums = [&](const std::size_t k, const LinearForm &vector)
+    {
+      for (std::size_t e = 0; e < vector.index.size(); ++e)
+      {
+        const std::size_t i = vector.index[e];
+        const double g = vector.value[e];
+        const double known_to = weights[i] > 0. ? terms[i] / weights[i] : 0.;
+        sums[2 * k] += g * solution.multiplier[i];
+        sums[2 * k + 1] += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);
+      }
+    };
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
+      if (problem.shared)
+        add_sums(k, of_own_rows(problem, k));
+      else
+        add_sums(k, problem.null_space[k]);
+    if (problem.shared)
+      problem.shared->sum(sums);
     for (std::size_t k = 0; k < problem.n_null_space(); ++k)
     {
       double balance = problem.null_space_load[k];
@@ -190,15 +262,8 @@ namespace taut
       }
       if (!problem.null_space_terms.empty())
         scale += problem.null_space_terms[k];
-      const LinearForm &vector = problem.null_space[k];
-      for (std::size_t e = 0; e < vector.index.size(); ++e)
-      {
-        const std::size_t i = vector.index[e];
-        const double g = vector.value[e];
-        const double known_to = weights[i] > 0. ? terms[i] / weights[i] : 0.;
-        balance += g * solution.multiplier[i];
-        scale += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);
-      }
+      balance += sums[2 * k];
+      scale += sums[2 * k + 1];
       result.null_space[k] = relative(std::abs(balance), scale);
       result.max = larger(result.max, result.null_space[k]);
     }

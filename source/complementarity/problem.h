@@ -3,6 +3,7 @@
 #define taut_problem_h
 
 #include "complementarity/operator.h"
+#include "complementarity/shared_rows.h"
 #include <taut/complementarity/cone.h>
 
 #include <cstddef>
@@ -59,6 +60,21 @@ namespace taut
 
     /// True if a null space vector has a resistance.
     bool has_resistance() const;
+
+    /// Null: all ranks have all rows. Otherwise the vectors here have the rows of this rank, those
+    /// over null space vectors are the same on all ranks, and all functions are called by all ranks
+    /// together.
+    const SharedRows *shared = nullptr;
+
+    /// The largest value that any rank found on its rows; not-a-number if one is.
+    double max(const double value) const { return shared ? shared->max(value) : value; }
+    bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
+
+    /// G N, and the sums of its absolute terms.
+    void forces_on_null_space(const std::vector<double> &multiplier,
+                              std::vector<double> &result) const;
+    void sizes_on_null_space(const std::vector<double> &multiplier,
+                             std::vector<double> &result) const;
 
     std::size_t size() const { return cones.size(); }
     std::size_t n_null_space() const { return null_space_load.size(); }
@@ -133,8 +149,10 @@ namespace taut
     /// w_i)): multipliers are known to rounding of s_i / w_i.
     std::vector<double> null_space;
 
-    /// The largest of all entries.
+    /// The largest of all entries, of all ranks.
     double max = 0.;
+
+    std::vector<double> sums; ///< work of residual()
   };
 
   /// The one definition of "solved". @p gap may come from F N + d + G^T alpha or from the

@@ -7,18 +7,35 @@ namespace taut
 {
   namespace
   {
-    /// A 64-bit hash of an active set: the sum of a well-mixed number (splitmix64) for each row.
-    std::uint64_t hash(const std::vector<std::size_t> &set)
+    /// The sum of a number of each rank, modulo 2^64: sums of doubles are exact for pieces of 16
+    /// bits.
+    std::uint64_t sum_of_ranks(const SharedRows &rows, const std::uint64_t value)
     {
-      std::uint64_t sum = 1;
+      constexpr unsigned int n_bits = 16;
+      std::vector<double> pieces;
+      for (unsigned int shift = 0; shift < 64; shift += n_bits)
+        pieces.push_back(static_cast<double>((value >> shift) & 0xffffu));
+      rows.sum(pieces);
+      std::uint64_t result = 0;
+      for (std::size_t p = 0; p < pieces.size(); ++p)
+        result += static_cast<std::uint64_t>(pieces[p]) << (n_bits * p);
+      return result;
+    }
+
+    /// A 64-bit hash of an active set: the sum of a well-mixed number (splitmix64) for each row.
+    std::uint64_t hash(const std::vector<std::size_t> &set, const SharedRows *const rows)
+    {
+      std::uint64_t sum = 0;
       for (const std::size_t row : set)
       {
-        std::uint64_t z = (row + 1) * 0x9e3779b97f4a7c15u;
+        if (rows && !rows->is_own(row))
+          continue;
+        std::uint64_t z = ((rows ? rows->number(row) : row) + 1) * 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         sum += z ^ (z >> 31);
       }
-      return sum;
+      return 1 + (rows ? sum_of_ranks(*rows, sum) : sum);
     }
   } // namespace
 
@@ -36,7 +53,7 @@ namespace taut
       {
         ++iterations;
         collect_set(problem, matrix, solution);
-        if (options.detect_cycles && comes_back())
+        if (options.detect_cycles && comes_back(problem.shared))
           return Outcome::cycle;
       }
 
@@ -44,8 +61,8 @@ namespace taut
       if (outcome == ActiveSetSystem::Outcome::inadmissible)
         return Outcome::unsettled;
       multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
-      is_settled = !flip_rows(
-          problem, tolerance > options.linear_tolerance ? tolerance : options.dead_band, solution);
+      is_settled = !problem.any(flip_rows(
+          problem, tolerance > options.linear_tolerance ? tolerance : options.dead_band, solution));
       stayed = is_settled && iterations == 1;
       if (!is_settled)
         continue;
@@ -96,9 +113,9 @@ namespace taut
     return flipped;
   }
 
-  bool SemismoothNewton::comes_back()
+  bool SemismoothNewton::comes_back(const SharedRows *const rows)
   {
-    const std::uint64_t current = hash(set);
+    const std::uint64_t current = hash(set, rows);
     if (iterations == 1)
       history.fill(0);
     const bool known = std::find(history.begin(), history.end(), current) != history.end();

@@ -49,7 +49,7 @@ namespace taut
                      const ComplementarityOperator &matrix, MixedComplementaritySolution &solution);
     bool flip_rows(const MixedComplementarityProblem &problem, double dead_band,
                    MixedComplementaritySolution &solution) const;
-    bool comes_back();
+    bool comes_back(const SharedRows *rows);
 
     ComplementarityOptions options;
     ActiveSetSystem system;

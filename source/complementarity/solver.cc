@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "complementarity/solver.h"
 #include "base/text.h"
+#include "complementarity/whole_problem.h"
 #include <taut/base/exceptions.h>
 
 #include <algorithm>
@@ -27,8 +28,8 @@ namespace taut
 
   ComplementaritySolver::ComplementaritySolver(const std::string &method,
                                                const ComplementarityOptions &options)
-      : options(options), use_newton(method == "semismooth Newton"), use_mprgp(method == "MPRGP"),
-        newton(options), energy_ordered(options)
+      : method(method), options(options), use_newton(method == "semismooth Newton"),
+        use_mprgp(method == "MPRGP"), newton(options), energy_ordered(options)
   {
     if (!use_newton && !use_mprgp && method != "energy-ordered")
       throw UserError("unknown complementarity method '" + method +
@@ -47,6 +48,11 @@ namespace taut
         result.solution.closed.assign(problem.size(), problem.n_null_space() > 0);
       result.iterations = 0;
       result.used_fallback = false;
+      if (problem.shared)
+      {
+        solve_shared(problem, matrix);
+        return result;
+      }
       // A state satisfies its conditions to 1e-9, and so do the rows that follow from them.
       const double exact = is_linearised ? 1e-8 : options.linear_tolerance;
       if (!repeated.empty() && !has_sought)
@@ -81,6 +87,43 @@ namespace taut
     return result;
   }
 
+  void ComplementaritySolver::solve_shared(const MixedComplementarityProblem &problem,
+                                           ComplementarityOperator &matrix)
+  {
+    const bool repeats = !repeated_rows().empty();
+    if (!use_newton || repeats || !solve_with_newton(problem, matrix) ||
+        newton.has_dependent_rows())
+      solve_whole(problem, matrix);
+  }
+
+  /// Solves with all rows on all ranks.
+  void ComplementaritySolver::solve_whole(const MixedComplementarityProblem &problem,
+                                          ComplementarityOperator &matrix)
+  {
+    if (!whole)
+    {
+      whole = std::make_unique<ComplementaritySolver>(method, options);
+      if (is_linearised)
+        whole->begin_search();
+      if (!repeated.empty())
+        whole->set_repeated_rows(repeated);
+    }
+    const SharedRows &rows = *problem.shared;
+    const MixedComplementarityProblem all = whole_problem(problem);
+    WholeOperator F(matrix, rows);
+    whole->start_from(gathered(rows, result.solution.closed));
+    const ComplementarityResult &found = whole->solve(all, F);
+    rows.pick(found.solution.multiplier, result.solution.multiplier);
+    rows.pick(found.solution.gap, result.solution.gap);
+    result.solution.mode_amplitude = found.solution.mode_amplitude;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+      result.solution.closed[i] = found.solution.closed[rows.number(i)];
+    result.iterations += found.iterations;
+    result.used_fallback = found.used_fallback;
+    result.residual = found.residual;
+    rows.pick(found.residual.rows, result.residual.rows);
+  }
+
   void ComplementaritySolver::check_inert_rows(const MixedComplementarityProblem &problem,
                                                const ComplementarityOperator &matrix) const
   {
@@ -93,9 +136,9 @@ namespace taut
       const bool is_open = problem.cones[i].rests_open(0., d);
       if (matrix.diagonal(i) == 0. && (in_null_space.empty() || !in_null_space[i]) && !is_open &&
           std::abs(d) > options.tolerance * (std::abs(d) + scale))
-        violated.push_back(i);
+        violated.push_back(problem.shared ? problem.shared->number(i) : i);
     }
-    if (!violated.empty())
+    if (problem.any(!violated.empty()))
       throw ContradictoryRows("nothing that moves could close the gap of " + list("row", violated) +
                                   ": connect them to something that is free, or change the gaps",
                               violated);

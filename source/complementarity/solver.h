@@ -7,6 +7,7 @@
 #include "complementarity/repeated_rows.h"
 #include "complementarity/semismooth_newton.h"
 
+#include <memory>
 #include <string>
 
 namespace taut
@@ -59,6 +60,9 @@ namespace taut
     /// closed row.
     void start_from(const std::vector<char> &closed) { result.solution.closed = closed; }
 
+    // Where rows are shared, what Newton's method does not solve is solved with all rows on all
+    // ranks. Indices of rows in exceptions, and repeated rows, are numbers then.
+
     /// Before the problems of one search whose rows are linearised, from a state that satisfies
     /// them: rows that repeat others there are the same in all of these problems. Gaps of such rows
     /// are then no error, as they have the error of the linearisation.
@@ -66,18 +70,24 @@ namespace taut
     {
       is_linearised = true;
       has_sought = false;
+      if (whole)
+        whole->begin_search();
     }
 
     /// Rows that repeat others, found or of an earlier solver.
-    const RepeatedRows &repeated_rows() const { return repeated; }
+    const RepeatedRows &repeated_rows() const { return whole ? whole->repeated : repeated; }
     void set_repeated_rows(const RepeatedRows &rows)
     {
       begin_search();
       repeated = rows;
       has_sought = !rows.empty();
+      if (whole)
+        whole->set_repeated_rows(rows);
     }
 
   private:
+    void solve_shared(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix);
+    void solve_whole(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix);
     void check_inert_rows(const MixedComplementarityProblem &problem,
                           const ComplementarityOperator &matrix) const;
     bool spread_over_repeated_rows(const MixedComplementarityProblem &problem,
@@ -89,6 +99,7 @@ namespace taut
     void solve_energy_ordered(const MixedComplementarityProblem &problem,
                               ComplementarityOperator &matrix);
 
+    std::string method;
     ComplementarityOptions options;
     bool use_newton, use_mprgp;
     SemismoothNewton newton;
@@ -98,6 +109,7 @@ namespace taut
     RepeatedRows repeated;
     bool has_sought = false, is_linearised = false;
     std::vector<double> terms;
+    std::unique_ptr<ComplementaritySolver> whole; ///< of rows that are shared
   };
 } // namespace taut
 

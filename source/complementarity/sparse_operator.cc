@@ -253,7 +253,7 @@ namespace taut
 
   void SparseOperator::condensed_diagonal(const std::vector<std::size_t> &wanted,
                                           const std::vector<std::size_t> &set, const double shift,
-                                          std::vector<double> &result)
+                                          const SharedRows *, std::vector<double> &result)
   {
     result.assign(n, 0.);
     const bool is_definite = prepare(factor, set, 0.);

@@ -51,7 +51,7 @@ namespace taut
     /// From half solutions, which reach few rows.
     void condensed_diagonal(const std::vector<std::size_t> &wanted,
                             const std::vector<std::size_t> &set, double shift,
-                            std::vector<double> &result) override;
+                            const SharedRows *shared, std::vector<double> &result) override;
 
     /// Stored entries of the lower triangle before the border.
     std::size_t n_entries() const { return interior.column.size() + n_interior; }

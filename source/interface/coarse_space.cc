@@ -47,12 +47,14 @@ namespace taut
       for (std::size_t e = 0; e < response.size(); ++e)
         entries.add(response.row[e], response.column[e], response.value[e]);
     gather(solvers.structure().communicator(), entries);
+    std::vector<double> S;
+    body_constraints.all().gather(compliance, S);
     for (std::size_t i = 0; i < Z.size(); ++i)
       for (const auto &[k, z] : Z[i])
-        if (compliance[i] > 0.)
-          entries.add(i, k, compliance[i] * z);
+        if (S[i] > 0.)
+          entries.add(i, k, S[i] * z);
     entries.compress();
-    FZ.assign(active.size(), {});
+    FZ.assign(Z.size(), {});
     for (std::size_t e = 0; e < entries.size(); ++e)
       FZ[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
     factor();
@@ -68,10 +70,10 @@ namespace taut
           {
             const double z = entry.form.dot(null_spaces[k][v]);
             if (z != 0.)
-              entries.add(entry.constraint, first_column[k] + v, z);
+              entries.add(body_constraints.all().number(entry.constraint), first_column[k] + v, z);
           }
     gather(solvers.structure().communicator(), entries);
-    Z.assign(active.size(), {});
+    Z.assign(body_constraints.all().n_of_all(), {});
     for (std::size_t e = 0; e < entries.size(); ++e)
       Z[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
   }
@@ -79,10 +81,11 @@ namespace taut
   /// Adds responses of a body to its own columns and those of its neighbours.
   void CoarseSpace::add_responses(const std::size_t k, const std::vector<char> &active)
   {
+    const Constraints &constraints = body_constraints.all();
     responses[k] = {};
     std::map<std::size_t, std::vector<double>> loads;
     for (const BodyConstraints::Entry &entry : body_constraints[k])
-      for (const auto &[column, z] : Z[entry.constraint])
+      for (const auto &[column, z] : Z[constraints.number(entry.constraint)])
       {
         std::vector<double> &load = loads[column];
         load.resize(solvers.structure()[k].n_dofs(), 0.);
@@ -93,7 +96,7 @@ namespace taut
       solvers[k].solve(load);
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         if (active[entry.constraint])
-          responses[k].add(entry.constraint, column, entry.form.dot(load));
+          responses[k].add(constraints.number(entry.constraint), column, entry.form.dot(load));
     }
   }
 

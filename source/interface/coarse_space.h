@@ -52,6 +52,7 @@ namespace taut
     std::vector<std::size_t> first_column;                     ///< first column of each body
     std::size_t n_columns = 0;
 
+    // By the numbers of the rows, on all ranks.
     using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry
     std::vector<Row> Z;
     std::vector<MatrixEntries> responses; ///< B_k^T A_k^-1 B_k Z of each body of this rank

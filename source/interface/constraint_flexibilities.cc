@@ -148,7 +148,7 @@ namespace taut
     for (const std::vector<Part> &of_body : parts)
       for (const Part &part : of_body)
         of_bodies[part.constraint] += part.flexibility;
-    solvers.structure().communicator().sum(of_bodies);
+    constraints.all().sum(of_bodies);
     local_of_bodies = of_bodies;
     if (solvers.is_generalised_inverse())
     {
@@ -159,7 +159,7 @@ namespace taut
         for (const BodyConstraints::Entry &entry : constraints[k])
           local_of_bodies[entry.constraint] += local_flexibility(entry.form, own);
       }
-      solvers.structure().communicator().sum(local_of_bodies);
+      constraints.all().sum(local_of_bodies);
     }
     set_compliance(compliance);
   }
@@ -190,7 +190,7 @@ namespace taut
       for (const Part &part : parts[k])
         share[part.constraint] += std::sqrt(part.flexibility) * sums[part.group];
     }
-    solvers.structure().communicator().sum(share);
+    constraints.all().sum(share);
     y.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       y[i] = share[i] + compliance[i] * std::fabs(x[i]);

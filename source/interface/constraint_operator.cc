@@ -30,7 +30,7 @@ namespace taut
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < is_held.size(); ++i)
       if (is_held[i])
-        result.push_back(i);
+        result.push_back(constraints.number(i));
     return result;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
 #include "interface/check_constraint.h"
+#include "interface/distributed_rows.h"
 #include <taut/base/exceptions.h>
 #include <taut/interface/constraints.h>
 
@@ -40,6 +41,81 @@ namespace taut
     check({0, first_sliding});
     arrange();
     check(sliding_rows());
+  }
+
+  void Constraints::distribute()
+  {
+    const auto end = std::stable_partition(constraints.begin(), constraints.begin() + first_turning,
+                                           [](const ConstraintData &c) { return c.is_cut(); });
+    const std::size_t n_of_cuts = end - constraints.begin();
+    std::vector<ConstraintData> own;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      if (i < n_of_cuts && constraints[i].terms.empty())
+        continue;
+      if (i < n_of_cuts)
+        numbers.push_back(i);
+      own.push_back(std::move(constraints[i]));
+    }
+    const std::size_t n_common = constraints.size() - n_of_cuts,
+                      n_gone = constraints.size() - own.size();
+    constraints = std::move(own);
+    n_cuts = numbers.size();
+    first_turning -= n_gone;
+    first_sliding -= n_gone;
+    shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
+                                                          std::move(numbers), n_of_cuts, n_common);
+    arrange();
+  }
+
+  std::size_t Constraints::n_of_all() const
+  {
+    return shared_rows ? shared_rows->n_of_all() : size();
+  }
+
+  bool Constraints::is_own(const std::size_t i) const
+  {
+    return shared_rows ? shared_rows->is_own(i) : structure.communicator().is_root();
+  }
+
+  std::size_t Constraints::number(const std::size_t i) const
+  {
+    return shared_rows ? shared_rows->number(i) : i;
+  }
+
+  std::size_t Constraints::index(const std::size_t number) const
+  {
+    return shared_rows ? shared_rows->index(number) : number;
+  }
+
+  std::vector<std::size_t> Constraints::here(const std::vector<std::size_t> &numbers) const
+  {
+    std::vector<std::size_t> result;
+    for (const std::size_t number : numbers)
+      if (const std::size_t i = index(number); i < size())
+        result.push_back(i);
+    return result;
+  }
+
+  void Constraints::sum(const std::initializer_list<std::vector<double> *> vectors) const
+  {
+    if (shared_rows)
+      return shared_rows->sum_rows(vectors);
+    sum_together(structure.communicator(), vectors);
+  }
+
+  double Constraints::max(const double value) const
+  {
+    return shared_rows ? shared_rows->max(value) : value;
+  }
+
+  void Constraints::gather(const std::vector<double> &values, std::vector<double> &all) const
+  {
+    if (shared_rows)
+      shared_rows->gather(values, all);
+    else
+      all = values;
   }
 
   const TurningDirection &Constraints::turning(const std::size_t i) const
@@ -237,7 +313,7 @@ namespace taut
         for (const Term &term : motion)
           for (const unsigned int dof : term.form.index)
             count[i] += is_wanted(term.substructure, dof);
-    structure.communicator().sum(count);
+    sum(count);
     std::vector<char> result;
     for (const double n_dofs : count)
       result.push_back(n_dofs > 0.);
@@ -248,7 +324,7 @@ namespace taut
   {
     std::vector<double> result(constraints.size());
     share_of_motions(U, result);
-    structure.communicator().sum(result);
+    sum(result);
     return result;
   }
 

@@ -10,22 +10,26 @@
 namespace taut
 {
   ContactSchurOperator::ContactSchurOperator(const Lasting<FactoredStructure> solvers,
-                                             const Lasting<BodyConstraints> body_constraints,
-                                             const std::size_t n_constraints)
+                                             const Lasting<BodyConstraints> lasting)
       : ConstraintOperator(std::make_shared<const RowMap>(
             static_cast<const FactoredStructure &>(solvers).structure().communicator(),
-            static_cast<const BodyConstraints &>(body_constraints).rows(), n_constraints)),
-        solvers(solvers), body_constraints(body_constraints), compliance(n_constraints, 0.),
-        shift(n_constraints, 0.), active(n_constraints, 1), position(n_constraints, 0)
+            static_cast<const BodyConstraints &>(lasting).rows(),
+            static_cast<const BodyConstraints &>(lasting).all().n_of_all())),
+        solvers(solvers), body_constraints(lasting), compliance(body_constraints.all().size(), 0.),
+        shift(compliance.size(), 0.), active(compliance.size(), 1), position(compliance.size(), 0)
   {
     set_positions();
   }
 
   void ContactSchurOperator::set_positions()
   {
+    const Constraints &all = body_constraints.all();
     const std::vector<std::size_t> &held = rows().held();
     for (std::size_t p = 0; p < held.size(); ++p)
-      position[held[p]] = p;
+      position[all.index(held[p])] = p;
+    own.clear();
+    for (const std::size_t number : rows().owned())
+      own.push_back(all.index(number));
   }
 
   void ContactSchurOperator::update_rows()
@@ -37,8 +41,8 @@ namespace taut
     { return std::binary_search(rows().held().begin(), rows().held().end(), i); };
     if (!rows().communicator().any(!std::all_of(held.begin(), held.end(), holds)))
       return;
-    own_rows =
-        std::make_shared<const RowMap>(rows().communicator(), std::move(held), active.size());
+    own_rows = std::make_shared<const RowMap>(rows().communicator(), std::move(held),
+                                              body_constraints.all().n_of_all());
     set_positions();
   }
 
@@ -82,9 +86,14 @@ namespace taut
 
   void ContactSchurOperator::apply(const std::vector<double> &x, std::vector<double> &y) const
   {
-    rows().pick(x, scaled);
+    scaled.resize(own.size());
+    for (std::size_t p = 0; p < own.size(); ++p)
+      scaled[p] = x[own[p]];
     apply_owned(scaled, projected);
-    rows().gather(projected, y);
+    y.assign(x.size(), 0.);
+    for (std::size_t p = 0; p < own.size(); ++p)
+      y[own[p]] = projected[p];
+    body_constraints.all().sum(y);
   }
 
   /// y = F x on owned rows.
@@ -98,7 +107,7 @@ namespace taut
     rows().add_shares(motion.data(), y.data());
     for (std::size_t p = 0; p < x.size(); ++p)
     {
-      const std::size_t i = rows().owned()[p];
+      const std::size_t i = own[p];
       y[p] = active[i] ? y[p] + (compliance[i] + shift[i]) * x[p] : x[p];
     }
   }
@@ -106,15 +115,14 @@ namespace taut
   void ContactSchurOperator::scaled_apply(const std::vector<double> &x,
                                           std::vector<double> &y) const
   {
-    const std::vector<std::size_t> &owned = rows().owned();
     const auto D = [&](const std::size_t p)
-    { return scale && active[owned[p]] ? (*scale)[owned[p]] : 1.; };
+    { return scale && active[own[p]] ? (*scale)[own[p]] : 1.; };
     scaled.resize(x.size());
     for (std::size_t p = 0; p < x.size(); ++p)
       scaled[p] = D(p) * x[p];
     apply_owned(scaled, y);
     for (std::size_t p = 0; p < x.size(); ++p)
-      y[p] = active[owned[p]] ? D(p) * y[p] : x[p];
+      y[p] = active[own[p]] ? D(p) * y[p] : x[p];
   }
 
   void ContactSchurOperator::multiply(const std::vector<double> &x, std::vector<double> &y) const

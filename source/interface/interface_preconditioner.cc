@@ -29,7 +29,8 @@ namespace taut
   InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
                                                    const FactoredStructure &solvers,
                                                    const BodyConstraints &body_constraints)
-      : is_diagonal(name == "diagonal"), T(solvers, body_constraints)
+      : is_diagonal(name == "diagonal"), constraints(body_constraints.all()),
+        T(solvers, body_constraints)
   {
     if (!is_diagonal && name != "Dirichlet")
       throw UserError("unknown preconditioner '" + name +
@@ -38,13 +39,17 @@ namespace taut
 
   void InterfacePreconditioner::setup(const RowMap &rows, const std::vector<char> &active,
                                       const std::vector<char> &is_changed,
-                                      const std::vector<double> &compliance,
-                                      const std::vector<double> &diagonal)
+                                      const std::vector<double> &own_compliance,
+                                      const std::vector<double> &own_diagonal)
   {
     owners = &rows;
-    other.assign(active.size(), 0.);
-    for (std::size_t i = 0; i < active.size(); ++i)
-      other[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
+    std::vector<double> is_active, compliance, diagonal;
+    constraints.gather({active.begin(), active.end()}, is_active);
+    constraints.gather(own_compliance, compliance);
+    constraints.gather(own_diagonal, diagonal);
+    other.assign(is_active.size(), 0.);
+    for (std::size_t i = 0; i < other.size(); ++i)
+      other[i] = is_active[i] > 0. && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
     own = other;
     own_rows.reset();
     if (is_diagonal)
@@ -53,7 +58,7 @@ namespace taut
       Q_entries = {};
       return;
     }
-    set_stiffness(active, diagonal, compliance);
+    set_stiffness(is_active, diagonal, compliance);
     T.setup(active, is_changed, has_springs);
     if (has_springs)
       add_springs();
@@ -61,14 +66,14 @@ namespace taut
   }
 
   /// Which rows are elastic.
-  void InterfacePreconditioner::set_stiffness(const std::vector<char> &active,
+  void InterfacePreconditioner::set_stiffness(const std::vector<double> &active,
                                               const std::vector<double> &diagonal,
                                               const std::vector<double> &compliance)
   {
     has_springs = false;
     stiffness.assign(active.size(), 0.);
     for (std::size_t i = 0; i < active.size(); ++i)
-      if (active[i] && compliance[i] > smallest_compliance * diagonal[i])
+      if (active[i] > 0. && compliance[i] > smallest_compliance * diagonal[i])
       {
         stiffness[i] = 1. / compliance[i];
         has_springs = true;

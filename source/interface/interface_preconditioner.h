@@ -14,7 +14,7 @@ namespace taut
   /// Rows of the constraints in blocks between which a matrix has no entries.
   struct RowBlocks
   {
-    std::vector<std::size_t> rows;  ///< ascending
+    std::vector<std::size_t> rows;  ///< their numbers, ascending
     std::vector<std::size_t> block; ///< the number of that of each row
 
     std::size_t n_blocks() const
@@ -66,8 +66,9 @@ namespace taut
       return T.applied_bodies(active, coarse);
     }
 
-    /// Sets up for the active constraints. Bodies in @p is_changed have another A_k or other
-    /// constraints than in the last call. @p diagonal is that of F.
+    /// Sets up for the active constraints, by vectors over the constraints of this rank. Bodies in
+    /// @p is_changed have another A_k or other constraints than in the last call. @p diagonal is
+    /// that of F.
     void setup(const RowMap &rows, const std::vector<char> &active,
                const std::vector<char> &is_changed, const std::vector<double> &compliance,
                const std::vector<double> &diagonal);
@@ -84,7 +85,7 @@ namespace taut
     void scale(std::vector<double> &r) const;
 
   private:
-    void set_stiffness(const std::vector<char> &active, const std::vector<double> &diagonal,
+    void set_stiffness(const std::vector<double> &active, const std::vector<double> &diagonal,
                        const std::vector<double> &compliance);
     void add_springs();
     void set_scaling(const RowMap &rows);
@@ -93,9 +94,10 @@ namespace taut
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
     const bool is_diagonal;
+    const Constraints &constraints;
     InterfaceStiffness T;
 
-    // Of all rows, the same on all ranks.
+    // Of all rows by their numbers, the same on all ranks.
     std::vector<char> is_rigid;    ///< a row of Q
     std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0
     std::vector<double> own;       ///< the part of other without further treatment
@@ -104,7 +106,7 @@ namespace taut
     SparseCholesky inverse_T; ///< with springs
 
     // Of the rows that are kept, by their positions.
-    std::vector<std::size_t> kept; ///< ascending
+    std::vector<std::size_t> kept; ///< their numbers, ascending
     MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
     SymmetricEntries Q_entries;    ///< of the rigid rows, 1 on the others
     SparseCholesky Q;

@@ -80,7 +80,8 @@ namespace taut
           const auto at =
               std::lower_bound(block.dofs.begin(), block.dofs.end(), entry.form.index[e]);
           if (at != block.dofs.end() && *at == entry.form.index[e])
-            B.add(entry.constraint, first + (at - block.dofs.begin()), entry.form.value[e]);
+            B.add(body_constraints.all().number(entry.constraint),
+                  first + (at - block.dofs.begin()), entry.form.value[e]);
         }
       first += block.dofs.size();
     }

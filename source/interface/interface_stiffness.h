@@ -43,10 +43,11 @@ namespace taut
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                bool everywhere);
 
-    /// After setup() everywhere: adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0.
+    /// After setup() everywhere: adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0,
+    /// by the numbers of the rows.
     void add_springs(const std::vector<double> &s);
 
-    /// Number of DoFs in the lists b, and the forms B in order of their rows.
+    /// Number of DoFs in the lists b, and the forms B in order of the numbers of their rows.
     std::size_t n_dofs() const { return n_constrained; }
     const MatrixEntries &constraints() const { return B; }
 
@@ -83,7 +84,7 @@ namespace taut
     std::size_t n_constrained = 0;
     SymmetricEntries T;          ///< formed blocks and springs
     SymmetricEntries substitute; ///< A_k on b of blocks that are not formed
-    MatrixEntries B;             ///< row of F, DoF
+    MatrixEntries B;             ///< number of the row of F, DoF
     mutable std::vector<double> whole, image;
   };
 } // namespace taut

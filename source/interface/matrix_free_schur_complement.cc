@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/matrix_free_schur_complement.h"
+#include "base/gather_entries.h"
+#include "complementarity/shared_rows.h"
 #include <taut/base/exceptions.h>
 #include <taut/interface/constraint_operator.h>
 
@@ -135,8 +137,7 @@ namespace taut
                                                        const FactoredStructure &solvers,
                                                        const Constraints &constraints)
       : parameters(parameters), solvers(solvers), constraints(constraints),
-        body_constraints(solvers.structure(), constraints),
-        F(solvers, body_constraints, constraints.size()),
+        body_constraints(solvers.structure(), constraints), F(solvers, body_constraints),
         preconditioner(parameters.preconditioner, solvers, body_constraints),
         flexibilities(solvers, body_constraints, cuts(constraints)), tolerance(smallest_residual),
         work(solvers.structure().zero())
@@ -210,8 +211,9 @@ namespace taut
 
   std::string MatrixFreeSchurComplement::description() const
   {
-    return "matrix-free, " + std::to_string(constraints.size()) + " constraints, preconditioner " +
-           parameters.preconditioner + ", coarse space " + parameters.coarse_space +
+    return "matrix-free, " + std::to_string(constraints.n_of_all()) +
+           " constraints, preconditioner " + parameters.preconditioner + ", coarse space " +
+           parameters.coarse_space +
            (coarse_space ? " (" + std::to_string(coarse_space->size()) + ")" : "");
   }
 
@@ -234,7 +236,7 @@ namespace taut
     std::vector<char> wanted(constraints.size(), 0);
     for (const std::size_t i : set)
       wanted[i] = 1;
-    if (is_stale || active != wanted)
+    if (constraints.any(is_stale || active != wanted))
     {
       for (std::size_t k = 0; k < body_constraints.size(); ++k)
         for (const BodyConstraints::Entry &entry : body_constraints[k])
@@ -254,7 +256,7 @@ namespace taut
 
   void MatrixFreeSchurComplement::divide_by_scale(std::vector<double> &x) const
   {
-    const std::vector<std::size_t> &owned = rows().owned();
+    const std::vector<std::size_t> &owned = F.owned();
     for (std::size_t p = 0; p < x.size(); ++p)
       x[p] = active[owned[p]] ? x[p] / scale()[owned[p]] : 0.;
   }
@@ -278,7 +280,7 @@ namespace taut
       for (std::size_t p = 0; p < r.size(); ++p)
         z[p] += coarse_part[p];
     }
-    const std::vector<std::size_t> &owned = rows().owned();
+    const std::vector<std::size_t> &owned = F.owned();
     for (std::size_t p = 0; p < r.size(); ++p)
       z[p] = active[owned[p]] ? z[p] / scale()[owned[p]] : r[p];
   }
@@ -287,16 +289,19 @@ namespace taut
   std::vector<double> MatrixFreeSchurComplement::scaled(const std::vector<double> &rhs) const
   {
     std::vector<double> result;
-    for (const std::size_t i : rows().owned())
+    for (const std::size_t i : F.owned())
       result.push_back(active[i] ? scale()[i] * rhs[i] : 0.);
     return result;
   }
 
-  /// The multipliers of all rows, on all ranks.
+  /// The multipliers of the rows of this rank.
   void MatrixFreeSchurComplement::set_solution(const std::vector<double> &scaled_x,
                                                std::vector<double> &x) const
   {
-    rows().gather(scaled_x, x);
+    x.assign(constraints.size(), 0.);
+    for (std::size_t p = 0; p < scaled_x.size(); ++p)
+      x[F.owned()[p]] = scaled_x[p];
+    constraints.sum(x);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (active[i])
         x[i] *= scale()[i];
@@ -307,7 +312,8 @@ namespace taut
                                         std::vector<double> &x)
   {
     x.assign(constraints.size(), 0.);
-    if (std::all_of(set.begin(), set.end(), [&](const std::size_t i) { return rhs[i] == 0.; }))
+    if (!constraints.any(
+            std::any_of(set.begin(), set.end(), [&](const std::size_t i) { return rhs[i] != 0.; })))
       return true;
     prepare(set, shift);
     std::vector<double> b = scaled(rhs), scaled_x(b.size(), 0.);
@@ -316,6 +322,26 @@ namespace taut
     F.unrestrict();
     F.set_shift(0., flexibilities.diagonal());
     return is_solved;
+  }
+
+  /// The motions of the rows of all ranks, by their numbers.
+  std::vector<LinearForm>
+  MatrixFreeSchurComplement::by_numbers(const std::vector<LinearForm> &null_space) const
+  {
+    const SharedRows *const shared = constraints.shared();
+    if (!shared)
+      return null_space;
+    MatrixEntries entries;
+    for (std::size_t k = 0; k < null_space.size(); ++k)
+      for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
+        if (const unsigned int i = null_space[k].index[e]; shared->is_own(i))
+          entries.add(k, shared->number(i), null_space[k].value[e]);
+    gather(rows().communicator(), entries);
+    entries.compress();
+    std::vector<LinearForm> result(null_space.size());
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      result[entries.row[e]].add(entries.column[e], entries.value[e]);
+    return result;
   }
 
   bool MatrixFreeSchurComplement::solve_with_null_space(const std::vector<std::size_t> &set,
@@ -327,12 +353,16 @@ namespace taut
   {
     prepare(set, shift);
     const RowBlocks blocks = preconditioner.blocks();
+    std::vector<double> all_scales, all_active;
+    constraints.gather(scale(), all_scales);
+    constraints.gather({active.begin(), active.end()}, all_active);
     const auto divide = [&](std::vector<double> &values)
     {
       for (std::size_t p = 0; p < values.size(); ++p)
-        values[p] = active[blocks.rows[p]] ? values[p] / scale()[blocks.rows[p]] : 0.;
+        values[p] = all_active[blocks.rows[p]] > 0. ? values[p] / all_scales[blocks.rows[p]] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(null_space, scale(), active, rows(), blocks,
+    const NaturalCoarseProblem coarse_problem(by_numbers(null_space), all_scales, all_active,
+                                              rows(), blocks,
                                               [&](std::vector<double> &values)
                                               {
                                                 divide(values);
@@ -403,7 +433,7 @@ namespace taut
       return largest_of_all(r);
     };
     ++counts.n_systems;
-    int bound = 100 + 10 * static_cast<int>(constraints.size());
+    int bound = 100 + 10 * static_cast<int>(constraints.n_of_all());
     double best = residual(), size = larger(largest_of_all(b), largest_of_all(x));
     for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {

@@ -64,7 +64,7 @@ namespace taut
 
   NaturalCoarseProblem::NaturalCoarseProblem(
       const std::vector<LinearForm> &null_space, const std::vector<double> &scale,
-      const std::vector<char> &active, const RowMap &rows, const RowBlocks &blocks,
+      const std::vector<double> &active, const RowMap &rows, const RowBlocks &blocks,
       const std::function<void(std::vector<double> &)> &solve)
       : rows(rows), G(null_space.size()), scaled_G(null_space.size())
   {
@@ -77,7 +77,7 @@ namespace taut
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
         const unsigned int i = null_space[k].index[e];
-        if (!active[i] || position[i] == nowhere)
+        if (active[i] == 0. || position[i] == nowhere)
           continue;
         const double value = null_space[k].value[e] * scale[i];
         on_blocks[k].add(position[i], value);

@@ -26,12 +26,13 @@ namespace taut
   class NaturalCoarseProblem
   {
   public:
-    /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns.
+    /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns,
+    /// which have the numbers of the rows.
     /// Only columns of active rows count. @p solve applies Q^-1 to the rows of @p blocks, the owned
     /// ones among them; zero on rows that are not active.
     /// Other functions take vectors on owned rows. All are called by all ranks together.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
-                         const std::vector<double> &scale, const std::vector<char> &active,
+                         const std::vector<double> &scale, const std::vector<double> &active,
                          const RowMap &rows, const RowBlocks &blocks,
                          const std::function<void(std::vector<double> &)> &solve);
 

@@ -5,6 +5,8 @@
 #include <taut/base/exceptions.h>
 #include <taut/substructure/body_traits.h>
 
+#include <stdexcept>
+
 namespace taut
 {
   namespace
@@ -106,6 +108,8 @@ namespace taut
     private:
       std::string choice() const
       {
+        if (constraints.shared())
+          return "matrix-free";
         if (constraints.size() <= most_dense_rows ||
             suits_half_columns(solvers.structure(), constraints))
           return "assembled dense";
@@ -129,6 +133,30 @@ namespace taut
     };
   } // namespace
 
+  bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
+                              const Constraints &constraints)
+  {
+    const Communicator &processes = structure.communicator();
+    bool is_nonlinear = false;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      is_nonlinear = is_nonlinear || !structure[k].is_linear();
+    if (processes.size() == 1 || !constraints.turning_rows().empty() || processes.any(is_nonlinear))
+      return false;
+    if (parameters.form == "matrix-free")
+      return true;
+    if (parameters.form != "automatic" || constraints.size() <= most_dense_rows ||
+        suits_half_columns(structure, constraints) || has_conditions_inside(structure) ||
+        !have_long_columns(structure))
+      return false;
+    // A long column has a number for each DoF of the bodies of its row.
+    std::vector<double> sums = {0., static_cast<double>(structure.n_dofs())};
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      for (const Term &term : constraints[i].terms)
+        sums[0] += structure[term.substructure].n_dofs();
+    processes.sum(sums);
+    return sums[0] > most_stored_numbers * sums[1];
+  }
+
   InterfaceStatistics &InterfaceStatistics::operator+=(const InterfaceStatistics &other)
   {
     n_systems += other.n_systems;
@@ -142,6 +170,8 @@ namespace taut
                                                          const FactoredStructure &solvers,
                                                          const Constraints &constraints)
   {
+    if (constraints.shared() && parameters.form != "automatic" && parameters.form != "matrix-free")
+      throw std::invalid_argument("F of distributed constraints is not assembled");
     if (parameters.form == "automatic")
       return std::make_unique<AutomaticSchurComplement>(parameters, solvers, constraints);
     if (parameters.form == "assembled dense")

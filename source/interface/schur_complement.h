@@ -57,7 +57,14 @@ namespace taut
     virtual InterfaceStatistics statistics() const { return {}; }
   };
 
-  /// Throws UserError for unknown names. The arguments are kept by reference.
+  /// Whether bodies of several ranks are joined by so many cuts that F is matrix-free at rest, and
+  /// the ranks do better to have their own cuts, see Constraints::distribute(). For linear bodies,
+  /// and without turning constraints. Called by all ranks together.
+  bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
+                              const Constraints &constraints);
+
+  /// Throws UserError for unknown names; std::invalid_argument if constraints are distributed and
+  /// F is assembled by name. The arguments are kept by reference.
   std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,
                                                          const Constraints &constraints);

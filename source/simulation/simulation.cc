@@ -4,6 +4,7 @@
 #include "base/data_files.h"
 #include "base/interruption.h"
 #include "base/text.h"
+#include "interface/schur_complement.h"
 #include "model/check_joints.h"
 #include "model/contact_mass.h"
 #include "model/form_finding.h"
@@ -51,13 +52,23 @@ namespace taut
       : parameters(parameters), log(log), processes(processes),
         model(prepare_scene(parameters, shared)),
         bodies(model, make_partition(model, choose_parts()), processes, shared),
-        grounded_links(check_held_ends(model, bodies)), links(scene_constraints(model, bodies)),
+        grounded_links(check_held_ends(model, bodies)), links(make_constraints()),
         figures(parameters.statistics, model, links)
   {
     check_ball_joints(model, bodies);
   }
 
   Simulation::~Simulation() = default;
+
+  /// At rest, ranks have their own cuts where these are many.
+  Constraints Simulation::make_constraints() const
+  {
+    Constraints result = scene_constraints(model, bodies);
+    if (!has_time() && model.start == Start::equilibrium &&
+        suits_distributed_cuts(parameters.solver.interface, bodies, result))
+      result.distribute();
+    return result;
+  }
 
   void Simulation::run()
   {

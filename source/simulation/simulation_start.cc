@@ -102,29 +102,30 @@ namespace taut
   /// Reports special features of the scene, which save work or are not intended.
   void Simulation::print_links() const
   {
-    std::size_t n_unilateral = 0, n_rigid = 0;
-    for (std::size_t i = 0; i < links.size(); ++i)
+    const std::size_t n_rows = links.n_of_all();
+    std::size_t n_unilateral = 0, n_rigid = n_rows - links.common_rows().size(); // cuts
+    for (const std::size_t i : links.common_rows())
     {
       n_unilateral += links[i].cone.may_open();
       n_rigid += links[i].spring.is_rigid();
     }
-    log << "  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
-        << links.size() - n_unilateral << " bilateral; " << links.sliding_rows().size()
-        << " moving; " << n_rigid << " rigid\n";
+    log << "  " << counted(n_rows, "multiplier") << ": " << n_unilateral << " unilateral, "
+        << n_rows - n_unilateral << " bilateral; " << links.sliding_rows().size() << " moving; "
+        << n_rigid << " rigid\n";
     const auto no_wire = [&](const auto &has)
     { return !model.wires.empty() && std::none_of(model.wires.begin(), model.wires.end(), has); };
     if (no_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
       log << "  no bending: no slope DoFs\n";
     if (no_wire([](const Wire &w) { return w.has_axial || w.has_lateral; }))
       log << "  no axial motion: one DoF per point of a wire across it\n";
-    if (links.size() == 0)
+    if (n_rows == 0)
       log << "  no links: the bodies move independently\n";
     else if (n_unilateral == 0)
       log << "  only bilateral links: one linear solve a step, no active set\n";
     if (!links.turning_rows().empty())
       log << "  " << counted(links.turning_rows().size(), "link")
           << " with the direction from end to end at each time\n";
-    if (links.size() > 0 && links.varying_rows().empty())
+    if (n_rows > 0 && links.varying_rows().empty())
       log << "  no moving link: the interface operator is constant\n";
     const Scene asked = parameters.scene();
     const std::size_t n_found =
@@ -252,7 +253,7 @@ namespace taut
     rest = start.reference.displacement;
     for (std::size_t k = 0; k < rest.size(); ++k)
       rest[k] = displacement(start.reference, start.state, k);
-    for (std::size_t i = 0; i < links.size(); ++i)
+    for (const std::size_t i : links.common_rows())
       forces_at_rest[links[i].name] = start.state.multiplier[i];
     const bool is_still = model.start == Start::equilibrium,
                has_sliding = !links.sliding_rows().empty();

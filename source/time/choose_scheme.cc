@@ -110,7 +110,7 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
         for (const Term &term : constraints[i].terms)
           result[i] += !structure[term.substructure].is_lumped();
-      structure.communicator().sum(result);
+      constraints.sum(result);
       return result;
     }
 

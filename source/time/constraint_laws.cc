@@ -228,7 +228,7 @@ namespace taut
                                          const std::vector<double> &S) const
   {
     double sum = 0.;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.common_rows()) // cuts do not move
     {
       const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
                    L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];

@@ -62,7 +62,12 @@ namespace taut
         for (const unsigned int dof : form.index)
           highest[i] = std::max(highest[i], omega[k][dof]);
       }
-    structure.communicator().max(highest);
+    std::vector<double> common;
+    for (const std::size_t i : constraints.common_rows())
+      common.push_back(highest[i]);
+    structure.communicator().max(common);
+    for (const std::size_t i : constraints.common_rows())
+      highest[i] = common[i - *constraints.common_rows().begin()];
     for (double &value : highest)
       value = value > 0. ? 2. / value : 0.;
     return highest;

@@ -34,6 +34,8 @@ namespace taut
       most[constraints[i].rotational] =
           std::max(most[constraints[i].rotational],
                    std::fabs(increments[i]) + F.diagonal(i) * std::fabs(N[i]));
+    for (double &of_kind : most)
+      of_kind = constraints.max(of_kind);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       scale[i] += decayed * most[constraints[i].rotational];
   }
@@ -93,7 +95,7 @@ namespace taut
     std::vector<double> size(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
       size[i] = magnitude(constraints[i].terms, terms);
-    structure.communicator().sum(size);
+    constraints.sum(size);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       scale[i] += size[i];
   }
@@ -125,7 +127,9 @@ namespace taut
         add_inertial_terms(c, S, state, F, problem.gap_scale);
       find(problem, at, F);
     }
-    worst = std::max_element(found.rows.begin(), found.rows.end()) - found.rows.begin();
+    const auto largest = std::max_element(found.rows.begin(), found.rows.end());
+    worst = largest == found.rows.end() || *largest < found.max ? no_link
+                                                                : largest - found.rows.begin();
     return found.max;
   }
 } // namespace taut

@@ -64,8 +64,8 @@ namespace taut
     }
 
     /// Rigid and elastic bilateral constraints, and on request unilateral ones between two bodies.
-    std::vector<std::size_t> joins(const Structure &structure, const Constraints &constraints,
-                                   const bool unilateral, const std::size_t but)
+    std::vector<std::size_t> joins(const Constraints &constraints, const bool unilateral,
+                                   const std::size_t but)
     {
       std::vector<double> n_bodies(constraints.size(), 0.);
       for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -76,7 +76,7 @@ namespace taut
             bodies.push_back(term.substructure);
         n_bodies[i] = static_cast<double>(bodies.size());
       }
-      structure.communicator().sum(n_bodies);
+      constraints.sum(n_bodies);
       std::vector<std::size_t> result;
       for (std::size_t i = 0; i < constraints.size(); ++i)
         if (i != but && (constraints[i].cone.is_free() || (unilateral && n_bodies[i] > 1.)))
@@ -99,7 +99,7 @@ namespace taut
           wholes(structure, constraints,
                  [&](const std::size_t i)
                  { return constraints[i].cone.is_free() && constraints[i].spring.is_rigid(); }),
-          closed(joins(structure, constraints, false, no_link))
+          closed(joins(constraints, false, no_link))
     {
       const std::vector<double> of_bodies = total_masses(structure);
       mass.assign(wholes.n_groups(), 0.);
@@ -120,7 +120,7 @@ namespace taut
           continue;
         at_once.column(i, {}, column);
         const double alone = column[i];
-        at_once.column(i, joins(structure, constraints, true, i), column);
+        at_once.column(i, joins(constraints, true, i), column);
         if (column[i] >= own_part * alone)
           of[i].ratio = 0.;
       }

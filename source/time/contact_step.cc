@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time/contact_step.h"
 #include "time/matrix_norms.h"
-#include <taut/base/communicator.h>
-
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <vector>
 
 namespace taut
 {
-  /// Each entry of several vectors becomes its sum over all ranks, by one message. Called by all
-  /// ranks together, with vectors of the same lengths.
-  inline void sum_together(const Communicator &processes,
-                           const std::initializer_list<std::vector<double> *> vectors)
-  {
-    if (processes.size() == 1)
-      return;
-    std::vector<double> all;
-    for (const std::vector<double> *v : vectors)
-      all.insert(all.end(), v->begin(), v->end());
-    processes.sum(all);
-    const double *sums = all.data();
-    for (std::vector<double> *v : vectors)
-    {
-      std::copy(sums, sums + v->size(), v->begin());
-      sums += v->size();
-    }
-  }
-
   namespace
   {
     /// Part of its terms up to which the sum of some thousand loads is rounding.
@@ -77,6 +55,7 @@ namespace taut
                     &S,
                     &history})
       v->assign(n, 0.);
+    problem.shared = constraints.shared();
     reference_gap = constraints.motions(reference.displacement);
     const std::vector<double> motions = constraints.motions(start.U);
     for (std::size_t i = 0; i < n; ++i)
@@ -114,13 +93,13 @@ namespace taut
     for (std::size_t k = 0; k < problem.null_space_terms.size(); ++k)
       if (std::fabs(problem.null_space_load[k]) <= rounding_of_loads * problem.null_space_terms[k])
         problem.null_space_load[k] = 0.;
-    if (constraints.size() == 0)
+    if (constraints.n_of_all() == 0)
       return;
     predict_motions(before, system, P, prescribed.lift());
     if (method.has_means())
     {
       constraints.share_of_motions(before.V, velocity);
-      sum_together(structure.communicator(), {&velocity});
+      constraints.sum({&velocity});
     }
     set_rates_of_prescribed(prescribed.lift_of_velocities());
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -151,7 +130,7 @@ namespace taut
       position[i] = evaluate(terms, reference.displacement) + evaluate(terms, before.U);
       terms_size[i] = magnitude(terms, reference.displacement) + magnitude(terms, before.U);
     }
-    sum_together(structure.communicator(), {&motion, &motion_size, &position, &terms_size});
+    constraints.sum({&motion, &motion_size, &position, &terms_size});
   }
 
   double ContactStep::gap_of_place(const std::size_t i) const
@@ -187,7 +166,7 @@ namespace taut
     if (!lift)
       return;
     constraints.share_of_motions(*lift, of_prescribed);
-    structure.communicator().sum(of_prescribed);
+    constraints.sum(of_prescribed);
   }
 
   /// Sets (1 - alpha_f) step (D' + e D'_0) without multipliers.
@@ -298,13 +277,13 @@ namespace taut
     constraints.share_of_motions(state.U, position, terms_size);
     for (const std::size_t i : constraints.sliding_rows())
       position[i] += evaluate(constraints[i].terms, reference.displacement);
-    sum_together(structure.communicator(), {&motion, &position, &terms_size});
+    constraints.sum({&motion, &position, &terms_size});
   }
 
   void ContactStep::measure_velocities(const State &state)
   {
     constraints.share_of_motions(state.V, velocity, velocity_size);
-    sum_together(structure.communicator(), {&velocity, &velocity_size});
+    constraints.sum({&velocity, &velocity_size});
   }
 
   /// Rates of the state, and those before the step. Places of sliding rows count exactly if
@@ -318,7 +297,7 @@ namespace taut
       for (const std::size_t i : constraints.sliding_rows())
         rate_of_place[i] =
             constraints.share_of_convection(i, state.time, reference.displacement, state.U);
-      sum_together(structure.communicator(), {&rate_of_place});
+      constraints.sum({&rate_of_place});
       for (const std::size_t i : constraints.sliding_rows())
         rate_of_place[i] += constraints.profile_rate(i, state.time, method.length);
     }
@@ -382,7 +361,7 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (method.rules[i].is_on_velocity() && constraints[i].cone.is_free())
         most = std::max(most, std::fabs(state.distance[i]));
-    return most;
+    return constraints.max(most);
   }
 
   bool ContactStep::correct(const State &state, StepEquations &system, const BodyVectors &left,
@@ -390,8 +369,9 @@ namespace taut
   {
     MixedComplementarityProblem remainder;
     remainder.cones = problem.cones;
+    remainder.shared = problem.shared;
     system.interface().contact_free_predictor(left, remainder.free_gap, remainder.gap_scale);
-    sum_together(structure.communicator(), {&remainder.free_gap, &remainder.gap_scale});
+    constraints.sum({&remainder.free_gap, &remainder.gap_scale});
     if (system.has_modes())
       system.set_modes(on_modes, remainder);
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -454,7 +434,7 @@ namespace taut
 
   double ContactStep::residual(const State &state, StepEquations &system, std::size_t &worst)
   {
-    if (constraints.size() == 0)
+    if (constraints.n_of_all() == 0)
       return 0.;
     set_recomputed_gaps(state);
     const double max =
@@ -496,7 +476,16 @@ namespace taut
         worst = i;
       }
     }
-    return max;
+    return agreed(max, worst);
+  }
+
+  /// The largest number of all ranks, and its row where this rank has it.
+  double ContactStep::agreed(const double own, std::size_t &worst) const
+  {
+    const double all = constraints.max(own);
+    if (own < all)
+      worst = no_link;
+    return all;
   }
 
   /// Sizes of the terms of B^T U, if a displacement rounds with the largest one of its body.
@@ -510,7 +499,7 @@ namespace taut
       for (const auto &[k, form, of] : constraints[i].terms)
         for (std::size_t j = 0; j < form.index.size(); ++j)
           terms[i] += std::fabs(form.value[j]) * size[k][structure[k].kind(form.index[j])];
-    structure.communicator().sum(terms);
+    constraints.sum(terms);
     return terms;
   }
 

@@ -177,6 +177,7 @@ namespace taut
     void measure_rates(State &state);
     void set_recomputed_gaps(const State &state);
     double stray(const State &state, std::size_t &worst);
+    double agreed(double own, std::size_t &worst) const;
     double largest_stray(const State &state, std::size_t &worst);
     std::vector<double> body_terms(const BodyVectors &U) const;
     void add_body_terms(const BodyVectors &U);

@@ -50,7 +50,7 @@ namespace taut
     work.resize(rows.size());
     terms.resize(rows.size());
     constraints.share_of_motions(reference.displacement, work, terms);
-    structure.communicator().sum(terms);
+    constraints.sum(terms);
     for (std::size_t i = rows.size(); i-- > 0;)
     {
       Row &row = rows[i];
@@ -89,11 +89,18 @@ namespace taut
                           noise_turn * body.rounding_of_force(1);
           }
         });
-    for (std::vector<double> *const sum : {&n_nonlinear, &at_rest, &of_step})
-      structure.communicator().sum(*sum);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    const auto add_row = [&](const std::size_t i)
+    {
       at_rest[connected.of_constraint(i)] +=
           std::fabs(start.multiplier[i]) * rows[i].noise / rounding_of_gaps;
+    };
+    const Constraints::Rows common = constraints.common_rows();
+    for (std::size_t i = 0; i < *common.begin(); ++i)
+      if (constraints.is_own(i))
+        add_row(i);
+    for (std::vector<double> *const sum : {&n_nonlinear, &at_rest, &of_step})
+      structure.communicator().sum(*sum);
+    std::for_each(common.begin(), common.end(), add_row);
     for (const std::size_t i : constraints.turning_rows())
       n_nonlinear[connected.of_constraint(i)] += 1.;
     for (std::size_t g = 0; g < n; ++g)
@@ -378,7 +385,7 @@ namespace taut
     }
     work.assign(rows.size(), 0.);
     constraints.share_of_motions(state.U, work, terms);
-    structure.communicator().sum(terms);
+    constraints.sum(terms);
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i].noise = std::max(rows[i].noise, rounding_of_gaps * terms[i]);
   }

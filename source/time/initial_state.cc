@@ -75,14 +75,13 @@ namespace taut
 
     /// Sets gaps of rigid unilateral constraints to 0 if they are negative by rounding; the
     /// reference takes the difference.
-    void close_rounded_gaps(const Structure &structure, const Constraints &constraints,
-                            const std::vector<double> &motion, const std::vector<Coordinates> &ends,
-                            InitialState &result)
+    void close_rounded_gaps(const Constraints &constraints, const std::vector<double> &motion,
+                            const std::vector<Coordinates> &ends, InitialState &result)
     {
       State &state = result.state;
       std::vector<double> sum(constraints.size()), size(constraints.size());
       constraints.share_of_motions(state.U, sum, size);
-      structure.communicator().sum(size);
+      constraints.sum(size);
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
@@ -112,8 +111,7 @@ namespace taut
     }
 
     /// Sets gaps, and springs of links with their forces.
-    void set_rows(const Structure &structure, Constraints &constraints, const Start start,
-                  InitialState &result)
+    void set_rows(Constraints &constraints, const Start start, InitialState &result)
     {
       State &state = result.state;
       constraints.turn_to(result.reference.displacement, state.U);
@@ -161,7 +159,7 @@ namespace taut
       if (start == Start::equilibrium)
         result.reference.gap = state.distance;
       else
-        close_rounded_gaps(structure, constraints, motion, ends, result);
+        close_rounded_gaps(constraints, motion, ends, result);
       for (std::size_t i = 0; i < constraints.size(); ++i)
         if (start != Start::equilibrium && state.complementarity_gap[i] < 0. &&
             constraints[i].cone.may_open())
@@ -178,8 +176,8 @@ namespace taut
       const State &state = start.state;
       std::vector<double> motion(constraints.size()), size(constraints.size());
       constraints.share_of_motions(state.U, motion, size);
-      structure.communicator().sum(size);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
+      constraints.sum(size);
+      const auto check = [&](const std::size_t i)
       {
         const ConstraintData &joint = constraints[i];
         const double gap = state.distance[i], terms = constraints.turns(i)
@@ -187,7 +185,7 @@ namespace taut
                                                           : size[i] + std::fabs(joint.gap);
         if (joint.cone.may_open() || !joint.spring.is_rigid() || constraints.slides(i) ||
             std::fabs(gap) <= closed * terms)
-          continue;
+          return;
         throw EntryError(
             constraints.origin(i),
             to_text(
@@ -195,7 +193,13 @@ namespace taut
                 joint.rotational ? " rad" : " m",
                 ": a rigid one starts closed, or would close within the first step. Change its ",
                 constraints.turns(i) ? "Length" : "Gap", " or the start, or give it a Stiffness"));
-      }
+      };
+      structure.communicator().agree(
+          [&]
+          {
+            for (std::size_t i = 0; i < constraints.size(); ++i)
+              check(i);
+          });
     }
   } // namespace
 
@@ -255,7 +259,7 @@ namespace taut
           }
           set_prescribed_velocities(structure, step, state);
         });
-    set_rows(structure, constraints, start, result);
+    set_rows(constraints, start, result);
     if (start != Start::equilibrium)
       check_joints(structure, constraints, result);
     return result;

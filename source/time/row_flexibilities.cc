@@ -78,7 +78,7 @@ namespace taut
                 sums[j] += own.form.dot(modes.vectors[v]) * other.form.dot(modes.vectors[v]) /
                            modes.resistance[v];
     }
-    structure.communicator().sum(sums);
+    constraints.sum(sums);
     for (std::size_t j = 0; j < sums.size(); ++j)
       result[j] += sums[j];
   }
@@ -90,7 +90,7 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
         joints.push_back(i);
-    F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, result);
+    F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, constraints.shared(), result);
     return result;
   }
 

@@ -95,7 +95,7 @@ namespace taut
             state.complementarity_gap,
             state.distance,
             {},
-            repeated_rows().all_partners()};
+            constraints.here(repeated_rows().all_partners())};
   }
 
   void StaticStep::find_increments()
@@ -128,26 +128,20 @@ namespace taut
   {
     std::vector<double> moved(constraints.size()), size(constraints.size());
     constraints.share_of_motions(state.U, moved, size);
-    structure.communicator().sum(size);
+    constraints.sum(size);
     double largest = 0.;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (step.contacts().applied().closed[i])
         largest = std::max(largest, relative(state.complementarity_gap[i],
                                              size[i] + std::fabs(constraints[i].gap)));
-    const std::vector<LinearForm> &G = step.contacts().problem_of_step().null_space;
-    const std::vector<double> &load = step.contacts().problem_of_step().null_space_load;
-    for (std::size_t m = 0; m < G.size(); ++m)
-    {
-      double sum = load[m], terms = step.contacts().problem_of_step().null_space_terms[m];
-      for (std::size_t e = 0; e < G[m].index.size(); ++e)
-      {
-        const double force = G[m].value[e] * state.multiplier[G[m].index[e]];
-        sum += force;
-        terms += std::fabs(force);
-      }
-      largest = std::max(largest, relative(sum, terms));
-    }
-    return largest;
+    const MixedComplementarityProblem &problem = step.contacts().problem_of_step();
+    std::vector<double> forces, sizes;
+    problem.forces_on_null_space(state.multiplier, forces);
+    problem.sizes_on_null_space(state.multiplier, sizes);
+    for (std::size_t m = 0; m < forces.size(); ++m)
+      largest = std::max(largest, relative(problem.null_space_load[m] + forces[m],
+                                           problem.null_space_terms[m] + sizes[m]));
+    return constraints.max(largest);
   }
 
   /**
@@ -159,7 +153,8 @@ namespace taut
   void StaticStep::refine()
   {
     const std::vector<char> &closed = step.contacts().applied().closed;
-    if (std::count(closed.begin(), closed.end(), 0) == static_cast<std::ptrdiff_t>(closed.size()))
+    if (!constraints.any(std::count(closed.begin(), closed.end(), 0) !=
+                         static_cast<std::ptrdiff_t>(closed.size())))
       return;
     double error = relative_remainder();
     for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)

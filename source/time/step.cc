@@ -109,7 +109,7 @@ namespace taut
   {
     own_contacts.set_problem(state, equations(), own_history.loads(), own_history.prescribed());
     own_costs.lap(StepPart::free_gaps);
-    if (constraints.size() > 0 || equations().has_modes())
+    if (constraints.n_of_all() > 0 || equations().has_modes())
     {
       const Residuals before = residuals;
       own_contacts.find_multipliers(equations(), own_check, residuals, state);
@@ -181,6 +181,14 @@ namespace taut
     return correct(state, own_history.loads());
   }
 
+  /// Rows of this rank whose gaps follow from each other's, with that of a row.
+  std::vector<std::size_t> Step::partners_of(const std::size_t row) const
+  {
+    if (row >= constraints.size())
+      return {};
+    return constraints.here(equations().repeated_rows().partners(constraints.number(row)));
+  }
+
   void Step::certify(State &state, Residuals &residuals)
   {
     for (int refinements = 0;
@@ -191,8 +199,7 @@ namespace taut
     residuals.complementarity =
         own_contacts.residual(state, equations(), residuals.worst_constraint);
     residuals.drift = own_contacts.drift(state);
-    own_check.check_constraints(residuals,
-                                equations().repeated_rows().partners(residuals.worst_constraint));
+    own_check.check_constraints(residuals, partners_of(residuals.worst_constraint));
     own_check.check_balance(residuals, own_balance.residual());
     own_costs.lap(StepPart::residuals);
   }

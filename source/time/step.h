@@ -86,6 +86,7 @@ namespace taut
     InterfaceStatistics interface_statistics() const;
 
   private:
+    std::vector<std::size_t> partners_of(std::size_t row) const;
     /// Equations with the coefficients that they are prepared for.
     struct ReusedValues
     {

@@ -38,12 +38,15 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      fail_contradictory(e.rows());
+      structure.communicator().agree([&] { fail_contradictory(constraints.here(e.rows())); });
+      throw;
     }
   }
 
   void StepCheck::fail_contradictory(const std::vector<std::size_t> &rows) const
   {
+    if (rows.empty())
+      return;
     const bool is_one = rows.size() == 1;
     fail((is_one ? "no force satisfies link " + constraints.names(rows) +
                        ": its ends are held where it does not let them be. Remove it, give it"
@@ -51,7 +54,7 @@ namespace taut
                        " contradict each other, or what holds their ends: no contact forces "
                        "satisfy them all. Remove one of them, give one") +
              " a finite stiffness, or check the initial gaps",
-         rows.empty() ? "" : constraints.origin(rows.front()));
+         constraints.origin(rows.front()));
   }
 
   void StepCheck::check_constraints(const Residuals &residuals,
@@ -59,12 +62,19 @@ namespace taut
   {
     if (residuals.complementarity <= tolerance)
       return;
-    if (!partners.empty())
-      fail_contradictory(partners);
-    fail(to_text("link '", constraints[residuals.worst_constraint].name,
-                 "' misses the contact tolerance: residual ", residuals.complementarity, " > ",
-                 tolerance, ". ", remedy(residuals.complementarity)),
-         constraints.origin(residuals.worst_constraint));
+    const std::size_t worst = residuals.worst_constraint;
+    structure.communicator().agree(
+        [&]
+        {
+          fail_contradictory(partners);
+          if (worst < constraints.size())
+            fail(to_text("link '", constraints[worst].name,
+                         "' misses the contact tolerance: residual ", residuals.complementarity,
+                         " > ", tolerance, ". ", remedy(residuals.complementarity)),
+                 constraints.origin(worst));
+        });
+    fail(to_text("the contact tolerance is missed: residual ", residuals.complementarity, " > ",
+                 tolerance, ". ", remedy(residuals.complementarity)));
   }
 
   void StepCheck::check_balance(const Residuals &residuals, const double own_balance) const

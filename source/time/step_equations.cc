@@ -170,12 +170,13 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       for (const auto &[k, form, of] : constraints[i].terms)
         for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
-          G.add(first_of_body[k] + v, i, form.dot(modes[k].vectors[v]));
+          G.add(first_of_body[k] + v, constraints.number(i), form.dot(modes[k].vectors[v]));
     gather(processes, G);
     G.compress();
     for (std::size_t e = 0; e < G.size(); ++e)
-      if (G.value[e] != 0.)
-        problem.null_space[G.row[e]].add(G.column[e], G.value[e]);
+      if (const std::size_t i = constraints.index(G.column[e]);
+          G.value[e] != 0. && i != SharedRows::elsewhere)
+        problem.null_space[G.row[e]].add(static_cast<unsigned int>(i), G.value[e]);
     processes.sum(problem.null_space_load);
     processes.sum(problem.null_space_terms);
     processes.sum(problem.null_space_resistance);
@@ -218,7 +219,7 @@ namespace taut
                               MixedComplementaritySolution &correction)
   {
     correction.reset(remainder);
-    if (constraints.size() == 0 && !has_modes())
+    if (constraints.n_of_all() == 0 && !has_modes())
       return true;
     if (correct_on_closed_set(remainder, applied, correction))
       return true;
@@ -233,8 +234,10 @@ namespace taut
       closed[i] = closed[i] || remainder.free_gap[i] < 0.;
     }
     gaps(remainder, schur->matrix(), before, std::vector<double>(n_modes, 0.), problem.free_gap);
+    std::vector<double> forces;
+    problem.forces_on_null_space(before, forces);
     for (std::size_t k = 0; k < n_modes; ++k)
-      problem.null_space_load[k] += problem.null_space[k].dot(before);
+      problem.null_space_load[k] += forces[k];
     try
     {
       ComplementaritySolver search(parameters.complementarity);
@@ -277,6 +280,7 @@ namespace taut
           !(correction.gap[i] >= -admissible * terms[i]))
         is_admissible = false;
     }
-    return is_admissible && smallest >= -admissible * largest;
+    return !constraints.any(!is_admissible) &&
+           -constraints.max(-smallest) >= -admissible * constraints.max(largest);
   }
 } // namespace taut

@@ -173,7 +173,7 @@ TEST(Operators, a_product_sends_what_ranks_share)
   {
     const Row row(n, true);
     const taut::BodyConstraints of_bodies(row.structure, row.constraints);
-    taut::ContactSchurOperator F(row.solvers, of_bodies, n);
+    taut::ContactSchurOperator F(row.solvers, of_bodies);
     const std::vector<double> known = some_multipliers(n);
     Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
     for (int p = 0; p < x.MyLength(); ++p)
@@ -247,7 +247,7 @@ TEST(Operators, apply_and_aztecoo)
 {
   const Row row(7);
   const taut::BodyConstraints of_bodies(row.structure, row.constraints);
-  taut::ContactSchurOperator F(row.solvers, of_bodies, row.n);
+  taut::ContactSchurOperator F(row.solvers, of_bodies);
   const std::vector<double> known = some_multipliers(row.n), expected = row.product(known);
   Epetra_Vector x(F.OperatorDomainMap()), y(F.OperatorRangeMap());
   for (int p = 0; p < x.MyLength(); ++p)

@@ -165,9 +165,9 @@ TEST(SparseOperator, keeps_what_is_left_under_closed_rows_like_the_dense_one)
   for (const std::vector<std::size_t> &set :
        {std::vector<std::size_t>{}, {1, 2, 8, 31, 40}, {3, 6, n - 3, n - 2}, {n - 1}})
   {
-    F.sparse.condensed_diagonal(wanted, set, 1e-9, x);
-    F.dense.condensed_diagonal(wanted, set, 1e-9, y);
-    F.dense.ComplementarityOperator::condensed_diagonal(wanted, set, 1e-9, z);
+    F.sparse.condensed_diagonal(wanted, set, 1e-9, nullptr, x);
+    F.dense.condensed_diagonal(wanted, set, 1e-9, nullptr, y);
+    F.dense.ComplementarityOperator::condensed_diagonal(wanted, set, 1e-9, nullptr, z);
     EXPECT_EQ(y, z);
     expect_close(y, x);
   }
@@ -216,9 +216,9 @@ TEST(SparseOperator, rows_without_an_answer_leave_the_diagonal)
   for (const std::vector<std::size_t> &set : {std::vector<std::size_t>{1}, {2, 3}, {1, 2, 3}})
   {
     std::vector<double> x, y, z;
-    sparse.condensed_diagonal({0}, set, 1e-9, x);
-    dense.condensed_diagonal({0}, set, 1e-9, y);
-    dense.ComplementarityOperator::condensed_diagonal({0}, set, 1e-9, z);
+    sparse.condensed_diagonal({0}, set, 1e-9, nullptr, x);
+    dense.condensed_diagonal({0}, set, 1e-9, nullptr, y);
+    dense.ComplementarityOperator::condensed_diagonal({0}, set, 1e-9, nullptr, z);
     for (const std::vector<double> &result : {x, y, z})
       EXPECT_EQ(result, (std::vector<double>{2., 0., 0., 0.})) << set.size();
   }

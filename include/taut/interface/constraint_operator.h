@@ -36,7 +36,9 @@ namespace taut
 
     std::size_t size() const { return entries.size(); }
 
-    /// The constraints with a term on a body of this rank, ascending.
+    const Constraints &all() const { return constraints; }
+
+    /// Numbers of the constraints with a term on a body of this rank, ascending.
     std::vector<std::size_t> rows() const;
 
     /// Constraints on body k of this rank.

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -18,6 +19,8 @@
 
 namespace taut
 {
+  class SharedRows;
+
   /// The spring between the bodies and the multiplier of a constraint: rigid, linear with a damper,
   /// or with a law. Forces are in N, or N m; compressions in m, or rad.
   struct ConstraintSpring
@@ -98,7 +101,11 @@ namespace taut
                                   const Coordinates &direction, double stiffness,
                                   const Coordinates &motion);
 
-  /// The constraints of a system, with rows in the order fixed, turning, sliding.
+  /**
+   * The constraints of a system, with rows in the order fixed, turning, sliding. All ranks have all
+   * of them, unless they are distributed: each rank then has the cuts that act on its bodies, and
+   * all ranks have the other rows, the common ones.
+   */
   class Constraints
   {
   public:
@@ -106,7 +113,41 @@ namespace taut
     /// see check_constraint(). Called by all ranks together.
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints);
 
+    /// Each rank drops the cuts that do not act on its bodies, and has its cuts before all other
+    /// rows. Only without turning constraints. Called by all ranks together.
+    void distribute();
+
+    /// The distributed rows; null: all ranks have all of them.
+    const SharedRows *shared() const { return shared_rows.get(); }
+
+    /// Number of rows of this rank, and of all ranks.
     std::size_t size() const { return constraints.size(); }
+    std::size_t n_of_all() const;
+
+    /// The rows that all ranks have, which come after the cuts of this rank; and whether a row is
+    /// owned by this rank: each is by one.
+    boost::integer_range<std::size_t> common_rows() const { return {n_cuts, size()}; }
+    bool is_own(std::size_t i) const;
+
+    /// Number of a row among those of all ranks, ascending with the row; and back.
+    std::size_t number(std::size_t i) const;
+    std::size_t index(std::size_t number) const;
+
+    /// The rows with these numbers that this rank has.
+    std::vector<std::size_t> here(const std::vector<std::size_t> &numbers) const;
+
+    /// Each entry of vectors over the rows becomes the sum of what the ranks that have the row have
+    /// there, by one message. Called by all ranks together, as are the next ones.
+    void sum(std::initializer_list<std::vector<double> *> vectors) const;
+    void sum(std::vector<double> &values) const { sum({&values}); }
+
+    /// The largest value that any rank found on its rows, not-a-number if one is.
+    double max(double value) const;
+    bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
+
+    /// The values of all rows by their numbers, from those over the rows.
+    void gather(const std::vector<double> &values, std::vector<double> &all) const;
+
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
 
     /// Rows of each kind of geometry; varying: turning or sliding.
@@ -239,7 +280,9 @@ namespace taut
     const Structure &structure;
     std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
+    std::size_t n_cuts = 0; ///< first rows, not on all ranks
     std::size_t first_turning = 0, first_sliding = 0;
+    std::shared_ptr<const SharedRows> shared_rows;
 
     std::vector<Entry> entries;     ///< of all constraints, in the order of rows
     std::vector<std::size_t> begin; ///< first entry of each constraint, and the end

@@ -28,7 +28,7 @@ namespace taut
   public:
     /// The arguments are kept by reference. Called by all ranks together.
     ContactSchurOperator(Lasting<FactoredStructure> solvers,
-                         Lasting<BodyConstraints> body_constraints, std::size_t n_constraints);
+                         Lasting<BodyConstraints> body_constraints);
 
     /// Sets the diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
@@ -50,11 +50,14 @@ namespace taut
     /// by all ranks together.
     void update_rows();
 
-    /// y = F x with one entry for each constraint of all ranks, on all of them [m, rad; N, N m].
+    /// y = F x with one entry for each constraint that this rank has [m, rad; N, N m].
     void apply(const std::vector<double> &x, std::vector<double> &y) const;
 
     /// y = D F D x on the rows of F; the identity on other rows. On owned rows.
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y) const;
+
+    /// The constraints of the rows that this rank owns.
+    const std::vector<std::size_t> &owned() const { return own; }
 
     /// Number of products, and of systems with one A_k for these on this rank.
     long n_applications() const { return applications; }
@@ -72,7 +75,8 @@ namespace taut
     const NaturalCoarseProblem *projector = nullptr;
     std::vector<double> compliance, shift;
     std::vector<char> active;
-    std::vector<std::size_t> position;              ///< of a held row among them
+    std::vector<std::size_t> own;                   ///< constraint of each owned row
+    std::vector<std::size_t> position;              ///< of a constraint among the held rows
     mutable std::vector<double> multiplier, motion; ///< of held rows
     mutable std::vector<double> work, scaled, projected;
     mutable long applications = 0, local_solves = 0;

@@ -85,6 +85,7 @@ namespace taut
 
   private:
     PartitionParameters choose_parts();
+    Constraints make_constraints() const;
     bool has_time() const { return parameters.end_time > 0.; }
     void describe() const;
     void print_bodies() const;
