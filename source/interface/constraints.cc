@@ -110,6 +110,25 @@ namespace taut
     return shared_rows ? shared_rows->max(value) : value;
   }
 
+  double Constraints::total(const std::vector<double> &values) const
+  {
+    std::vector<double> sum(1, 0.);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!shared_rows || shared_rows->is_own(i))
+        sum[0] += values[i];
+    if (shared_rows)
+      shared_rows->sum(sum);
+    return sum[0];
+  }
+
+  void Constraints::pick(std::vector<double> &values) const
+  {
+    if (!shared_rows)
+      return;
+    const std::vector<double> all = values;
+    shared_rows->pick(all, values);
+  }
+
   void Constraints::gather(const std::vector<double> &values, std::vector<double> &all) const
   {
     if (shared_rows)

@@ -134,7 +134,7 @@ namespace taut
   } // namespace
 
   bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
-                              const Constraints &constraints)
+                              const Constraints &constraints, const bool is_at_rest)
   {
     const Communicator &processes = structure.communicator();
     bool is_nonlinear = false;
@@ -144,7 +144,7 @@ namespace taut
       return false;
     if (parameters.form == "matrix-free")
       return true;
-    if (parameters.form != "automatic" || constraints.size() <= most_dense_rows ||
+    if (parameters.form != "automatic" || !is_at_rest || constraints.size() <= most_dense_rows ||
         suits_half_columns(structure, constraints) || has_conditions_inside(structure) ||
         !have_long_columns(structure))
       return false;

@@ -57,11 +57,11 @@ namespace taut
     virtual InterfaceStatistics statistics() const { return {}; }
   };
 
-  /// Whether bodies of several ranks are joined by so many cuts that F is matrix-free at rest, and
-  /// the ranks do better to have their own cuts, see Constraints::distribute(). For linear bodies,
-  /// and without turning constraints. Called by all ranks together.
+  /// Whether F is matrix-free on several ranks, by name, or at rest with so many cuts that it is by
+  /// itself: the ranks then do better to have their own cuts, see Constraints::distribute(). Of
+  /// linear bodies without turning constraints. Called by all ranks together.
   bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
-                              const Constraints &constraints);
+                              const Constraints &constraints, bool is_at_rest);
 
   /// Throws UserError for unknown names; std::invalid_argument if constraints are distributed and
   /// F is assembled by name. The arguments are kept by reference.

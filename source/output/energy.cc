@@ -63,7 +63,7 @@ namespace taut
     void add_bodies(const StepView &step, Balance &share);
     void add_work(const StepView &step, std::size_t k, Balance &share);
     void add_moving_rows(const StepView &step, Balance &share) const;
-    void add_rows(const StepView &step);
+    void add_row(const StepView &step, std::size_t i, Balance &to) const;
     void keep(const StepView &step);
     void set_forces(const StepView &step);
     void set_prescribed_velocities(const StepView &step, std::size_t k,
@@ -136,7 +136,7 @@ namespace taut
     start.structure.communicator().sum(sums, 2);
     total.kinetic = sums[0];
     total.strain = sums[1];
-    for (std::size_t i = 0; i < start.constraints.size(); ++i)
+    for (const std::size_t i : start.constraints.common_rows())
       total.links += start.constraints[i].spring.energy(start.state.springs[i].u);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
@@ -280,41 +280,35 @@ namespace taut
   }
 
   /// Adds springs and dampers of the links, and the work of constraints by their own motions.
-  void Energy::add_rows(const StepView &step)
+  void Energy::add_row(const StepView &step, const std::size_t i, Balance &to) const
   {
     const State &state = step.state;
-    total.links = 0.;
-    for (std::size_t i = 0; i < step.constraints.size(); ++i)
+    const ConstraintData &constraint = step.constraints[i];
+    const State::Spring &spring = state.springs[i];
+    to.links += constraint.spring.energy(spring.u);
+    if (is_mean(step, i))
     {
-      const ConstraintData &constraint = step.constraints[i];
-      const State::Spring &spring = state.springs[i];
-      total.links += constraint.spring.energy(spring.u);
-      if (is_mean(step, i))
-      {
-        // Work on the spring that it does not store is work of the contact.
-        const double damper = constraint.spring.damping * spring.du * spring.du / state.last_step;
-        if (std::isfinite(damper))
-          total.link_dampers += damper;
-        total.contacts += step.report.work[i];
-        if (!constraint.spring.is_rigid())
-          total.contacts +=
-              constraint.spring.energy(spring.u) - constraint.spring.energy(springs0[i].u) + damper;
-        continue;
-      }
-      const double mean = .5 * (N0[i] + state.multiplier[i]);
-      // For a law, forces at the ends of a step do not give the stored work.
-      if (constraint.spring.law)
-        total.algorithmic += (.5 * (constraint.spring.law->force(springs0[i].u) +
-                                    constraint.spring.law->force(spring.u)) -
-                              constraint.spring.law->mean_force(springs0[i].u, spring.u)) *
-                             spring.du;
+      // Work on the spring that it does not store is work of the contact.
+      const double damper = constraint.spring.damping * spring.du * spring.du / state.last_step;
+      if (std::isfinite(damper))
+        to.link_dampers += damper;
+      to.contacts += step.report.work[i];
       if (!constraint.spring.is_rigid())
-        total.link_dampers +=
-            constraint.spring.damping * .5 * (springs0[i].v + spring.v) * spring.du;
-      total.contacts +=
-          mean *
-          (step.constraints.is_fixed(i) ? state.complementarity_gap[i] - gap0[i] : spring.du);
+        to.contacts +=
+            constraint.spring.energy(spring.u) - constraint.spring.energy(springs0[i].u) + damper;
+      return;
     }
+    const double mean = .5 * (N0[i] + state.multiplier[i]);
+    // For a law, forces at the ends of a step do not give the stored work.
+    if (constraint.spring.law)
+      to.algorithmic += (.5 * (constraint.spring.law->force(springs0[i].u) +
+                               constraint.spring.law->force(spring.u)) -
+                         constraint.spring.law->mean_force(springs0[i].u, spring.u)) *
+                        spring.du;
+    if (!constraint.spring.is_rigid())
+      to.link_dampers += constraint.spring.damping * .5 * (springs0[i].v + spring.v) * spring.du;
+    to.contacts +=
+        mean * (step.constraints.is_fixed(i) ? state.complementarity_gap[i] - gap0[i] : spring.du);
   }
 
   void Energy::keep(const StepView &step)
@@ -346,6 +340,10 @@ namespace taut
     Balance share;
     add_bodies(step, share);
     add_moving_rows(step, share);
+    const Constraints::Rows common = step.constraints.common_rows();
+    for (std::size_t i = 0; i < *common.begin(); ++i)
+      if (step.constraints.is_own(i))
+        add_row(step, i, share); // a cut, which does no more than work
     double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
                      share.contacts, share.damping, share.algorithmic};
     step.structure.communicator().sum(sums, 7);
@@ -356,7 +354,9 @@ namespace taut
     total.supports += sums[3];
     total.contacts += sums[4];
     total.damping += sums[5];
-    add_rows(step);
+    total.links = 0.;
+    for (const std::size_t i : common)
+      add_row(step, i, total);
     keep(step);
     if (step.state.time >= next - 1e-9 * interval)
       write(step.state.time);

@@ -36,14 +36,16 @@ namespace taut
   {
     std::vector<std::size_t> result;
     double strongest = 0.;
-    for (std::size_t i = 0; i < rate.size(); ++i)
+    const Constraints::Rows common = step.constraints.common_rows();
+    for (std::size_t r = 0; r < rate.size(); ++r)
     {
+      const std::size_t i = common[r];
       const ConstraintData &constraint = step.constraints[i];
       const double N = step.state.multiplier[i];
-      if (!constraint.cone.may_open() || !constraint.spring.is_rigid() || !(N > growth * force[i]))
+      if (!constraint.cone.may_open() || !constraint.spring.is_rigid() || !(N > growth * force[r]))
         continue;
       result.push_back(i);
-      if (rate[i] < -rest * largest[constraint.rotational])
+      if (rate[r] < -rest * largest[constraint.rotational])
         strongest = std::max(strongest, N);
     }
     const auto is_none = [&](const std::size_t i)
@@ -109,12 +111,15 @@ namespace taut
         names = step.constraints.names(together);
       }
     }
-    rate = is_start ? step.constraints.motions(state.V) : state.rate;
-    force = state.multiplier;
-    for (std::size_t i = 0; i < rate.size(); ++i)
+    const Constraints::Rows common = step.constraints.common_rows();
+    const auto of_common = [&](const std::vector<double> &all, std::vector<double> &result)
+    { result.assign(all.begin() + static_cast<std::ptrdiff_t>(*common.begin()), all.end()); };
+    of_common(is_start ? step.constraints.motions(state.V) : state.rate, rate);
+    of_common(state.multiplier, force);
+    for (std::size_t r = 0; r < rate.size(); ++r)
     {
-      double &of_kind = largest[step.constraints[i].rotational];
-      of_kind = std::max(of_kind, std::fabs(rate[i]));
+      double &of_kind = largest[step.constraints[common[r]].rotational];
+      of_kind = std::max(of_kind, std::fabs(rate[r]));
     }
   }
 

@@ -19,8 +19,8 @@ namespace taut
     /// Constraints between the same bodies that may share an impulse.
     constexpr std::size_t least_shared = 3;
 
-    /// The DoFs of lumped bodies that a fixed rigid unilateral constraint acts on, by number;
-    /// empty: another one, or other bodies, too.
+    /// Of each common row the DoFs of lumped bodies that a fixed rigid unilateral constraint acts
+    /// on, by number; empty: another one, or other bodies, too.
     std::vector<std::vector<std::size_t>> lumped_ends(const Structure &structure,
                                                       const Constraints &constraints)
     {
@@ -30,8 +30,9 @@ namespace taut
           most_dofs = std::max<double>(most_dofs, structure[k].n_dofs());
       const auto stride = static_cast<std::size_t>(structure.communicator().max(most_dofs));
       MatrixEntries acts_on;
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        for (const std::vector<Term> *const form : constraints[i].forms())
+      const Constraints::Rows rows = constraints.common_rows();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const std::vector<Term> *const form : constraints[rows[i]].forms())
           for (const Term &term : *form)
           {
             const bool is_lumped = structure[term.substructure].is_lumped();
@@ -40,11 +41,11 @@ namespace taut
                           is_lumped);
           }
       gather(structure.communicator(), acts_on);
-      std::vector<std::vector<std::size_t>> ends(constraints.size());
-      std::vector<char> is_shared(constraints.size(), 0);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        is_shared[i] = constraints[i].cone.may_open() && constraints[i].spring.is_rigid() &&
-                       !constraints.slides(i);
+      std::vector<std::vector<std::size_t>> ends(rows.size());
+      std::vector<char> is_shared(rows.size(), 0);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        is_shared[i] = constraints[rows[i]].cone.may_open() &&
+                       constraints[rows[i]].spring.is_rigid() && !constraints.slides(rows[i]);
       for (std::size_t e = 0; e < acts_on.size(); ++e)
       {
         ends[acts_on.row[e]].push_back(acts_on.column[e]);
@@ -64,16 +65,19 @@ namespace taut
 
   ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
                                const ConnectedBodies &groups, const State &start)
-      : multiplier(start.multiplier), times(1, start.time)
+      : first(*constraints.common_rows().begin()),
+        multiplier(start.multiplier.begin() + static_cast<std::ptrdiff_t>(first),
+                   start.multiplier.end()),
+        times(1, start.time)
   {
     const auto ends = lumped_ends(structure, constraints);
     std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> rows;
     for (std::size_t i = 0; i < ends.size(); ++i)
-      rows[{ends[i], constraints[i].rotational}].push_back(i);
+      rows[{ends[i], constraints[first + i].rotational}].push_back(i);
     item_of.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i)
     {
-      const std::vector<std::size_t> &alike = rows[{ends[i], constraints[i].rotational}];
+      const std::vector<std::size_t> &alike = rows[{ends[i], constraints[first + i].rotational}];
       const bool is_shared = !ends[i].empty() && alike.size() >= least_shared;
       if (is_shared && alike.front() < i)
       {
@@ -81,7 +85,8 @@ namespace taut
         continue;
       }
       item_of[i] = items.size();
-      items.push_back({i, 2 * groups.of_constraint(i) + constraints[i].rotational});
+      items.push_back(
+          {first + i, 2 * groups.of_constraint(first + i) + constraints[first + i].rotational});
     }
     most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, items.size()), fewest_ends,
                            most_ends_of_few) /
@@ -94,8 +99,9 @@ namespace taut
   {
     for (std::size_t i = 0; i < multiplier.size(); ++i)
     {
-      const double N = state.multiplier[i];
-      impulse[item_of[i]] += (report.is_mean(i) ? N : .5 * (N + multiplier[i])) * state.last_step;
+      const double N = state.multiplier[first + i];
+      impulse[item_of[i]] +=
+          (report.is_mean(first + i) ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
     if (++n_steps % stride != 0)

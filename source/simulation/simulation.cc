@@ -60,12 +60,12 @@ namespace taut
 
   Simulation::~Simulation() = default;
 
-  /// At rest, ranks have their own cuts where these are many.
+  /// Ranks have their own cuts where these are many.
   Constraints Simulation::make_constraints() const
   {
     Constraints result = scene_constraints(model, bodies);
-    if (!has_time() && model.start == Start::equilibrium &&
-        suits_distributed_cuts(parameters.solver.interface, bodies, result))
+    if (suits_distributed_cuts(parameters.solver.interface, bodies, result,
+                               !has_time() && model.start == Start::equilibrium))
       result.distribute();
     return result;
   }

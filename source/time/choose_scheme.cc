@@ -260,8 +260,7 @@ namespace taut
     const StepCoefficients c = integrator.coefficients(step);
     const std::vector<char> without_mass = constraints.without_mass();
     const bool has_means = integrator.internal_forces() == ForceTime::mean;
-    for (std::size_t i = 0; integrator.rule(RowTraits()).is_on_velocity() && i < constraints.size();
-         ++i)
+    const auto check_row = [&](const std::size_t i)
     {
       if (without_mass[i] && c.alpha_f == .5)
         throw EntryError("Time/Mass redistribution",
@@ -274,7 +273,14 @@ namespace taut
                          "conditions on velocities let the gap of a moving rigid contact drift, "
                          "here of '" +
                              constraints[i].name + "'; take 'gaps then velocities'" + anyway);
-    }
+    };
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t i = 0;
+               integrator.rule(RowTraits()).is_on_velocity() && i < constraints.size(); ++i)
+            check_row(i);
+        });
     if (has_means || !c.rings())
       return;
     const std::string nonlinear = nonlinear_body(structure);
@@ -287,8 +293,9 @@ namespace taut
       throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
                                           turning +
                                           "' turns. Take 'automatic' or 'backward Euler'" + anyway);
+    const ContactResolution &of_rows = resolution(); // by all ranks together
     std::size_t rigid = 0;
-    while (rigid < constraints.size() && !resolution().acts_as_rigid(rigid))
+    while (rigid < constraints.size() && !of_rows.acts_as_rigid(rigid))
       ++rigid;
     if (rigid == constraints.size())
       return;

@@ -97,13 +97,16 @@ namespace taut
   template <typename Archive>
   void ContactMeasures::store(Archive &archive)
   {
-    for (Force &f : forces)
+    for (const std::size_t i : constraints.common_rows())
     {
+      Force &f = forces[i];
       forget_past(f);
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
       archive &f.largest_impulse &f.gap &f.motion &f.last &f.end;
     }
-    archive &found.gap &found.gap_constraint;
+    std::size_t number = constraints.number(found.gap_constraint);
+    archive &found.gap &number;
+    found.gap_constraint = constraints.index(number);
   }
 
   void ContactMeasures::save(OutputArchive &archive)

@@ -116,7 +116,7 @@ namespace taut
     out.precision(2);
     if (energy.has_large_motions())
       out << "Large motions: gain of energy " << s.relative_motion_energy << " of the largest\n";
-    if (constraints.size() > 0)
+    if (constraints.n_of_all() > 0)
       out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
           << " m, peak over mean " << s.resolution << '\n';
     for (const Warning &warning : warnings())

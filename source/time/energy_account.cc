@@ -126,7 +126,7 @@ namespace taut
           on_velocities || (constraints[i].cone.may_open() && method.rules[i].is_on_velocity());
     if (method.has_means())
     {
-      if (!on_velocities && (!rows.empty() || !nonlinear.is_linear()))
+      if (!on_velocities && (constraints.n_of_all() > 0 || !nonlinear.is_linear()))
         measure_means(step, nonlinear, state);
     }
     else if (!nonlinear.is_linear() && method.c.is_backward_euler())
@@ -183,7 +183,7 @@ namespace taut
       sums[n + connected.of_body(k)] -= step.balance().work(k);
     add_kinetic_energies(state.V, sums);
     structure.communicator().sum(sums);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const std::size_t i : constraints.common_rows())
       sums[n + connected.of_constraint(i)] += gain_of_spring(i, state, report);
     report.gains.assign(n, 0.);
     for (std::size_t g = 0; g < n; ++g)
@@ -477,8 +477,8 @@ namespace taut
   template <typename Archive>
   void EnergyAccount::store(Archive &archive)
   {
-    for (Row &row : rows)
-      archive &row;
+    for (const std::size_t i : constraints.common_rows())
+      archive &rows[i];
     for (Group &group : groups)
       archive &group;
     archive &kinetic &n_steps;

@@ -6,6 +6,7 @@
 #include "time/nonlinear_step.h"
 #include "time/step.h"
 #include "time/step_control.h"
+#include "time/stored_rows.h"
 #include "time/velocity_projection.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
@@ -514,10 +515,8 @@ namespace taut
     p.step.check().check_constraints(p.residuals);
     StepReport &report = p.step.report();
     for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
       report.work[i] += p.projection->work()[i];
-      report.impulse_work += p.projection->work()[i];
-    }
+    report.impulse_work = constraints.total(p.projection->work());
     // Forces of moving constraints act half in their old place.
     for (const std::size_t i : constraints.sliding_rows())
       if (contacts.is_mean(i))
@@ -583,10 +582,14 @@ namespace taut
   void Motion::store(Archive &archive)
   {
     Parts &p = *parts;
-    archive &p.state &p.residuals &p.step.report() & p.method.c;
     ContactStep::Sizes sizes = p.step.contacts().largest_sizes();
     std::vector<std::vector<double>> courses = constraints.courses();
+    const StoredRows rows(constraints, {p.state, p.step.report(), sizes.gaps, sizes.terms});
+    if constexpr (Archive::is_saving::value)
+      rows.gather();
+    archive &p.state &p.residuals &p.step.report() & p.method.c;
     archive &sizes &courses;
+    rows.pick();
     p.step.contacts().set_largest_sizes(sizes);
     constraints.set_courses(courses);
     archive &p.length &p.step_before &p.segment_start &p.n_in_segment &p.n_steps;
@@ -600,7 +603,10 @@ namespace taut
     store(archive);
     const std::vector<double> largest_rates =
         parts->projection ? parts->projection->largest_rates() : std::vector<double>();
-    archive << largest_rates;
+    std::vector<double> of_all;
+    if (parts->projection)
+      constraints.gather(largest_rates, of_all);
+    archive << of_all;
     reset_caches(largest_rates);
     energy.save(archive);
     contact_measures.save(archive);
@@ -612,6 +618,8 @@ namespace taut
     store(archive);
     std::vector<double> largest_rates;
     archive >> largest_rates;
+    if (!largest_rates.empty())
+      constraints.pick(largest_rates);
     constraints.update(parts->state.time);
     parts->nonlinear.follow(parts->state);
     structure.communicator().agree(

@@ -53,7 +53,7 @@ namespace taut
     F.apply(unit, result);
     result[i] -= S[i];
     add_modes(i, result);
-    if (set.empty() ||
+    if (!constraints.any(!set.empty()) ||
         (!F.solve(set, result, 0., x) && !F.solve(set, result, shift_of_dependent_rows, x)))
       return;
     F.apply(x, of_x);

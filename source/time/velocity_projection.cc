@@ -78,7 +78,7 @@ namespace taut
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       contacts.rates_before_step()[i] < 0.);
     }
-    return acts;
+    return constraints.any(acts);
   }
 
   double VelocityProjection::kinetic_energy(const State &state)
@@ -192,7 +192,7 @@ namespace taut
       double a = 0., b = 0., c = 0.;
     };
     std::vector<Work> works(groups.n_groups());
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    const auto add = [&](const std::size_t i)
     {
       Work &own = works[groups.of_constraint(i)];
       own.a += .5 * rebounding[i] * of_rebounding[i];
@@ -200,7 +200,21 @@ namespace taut
       own.c += q[i] * (state.rate[i] + .5 * of_plain[i]);
       if (!constraints.slides(i))
         own.c += p[i] * contacts.increments()[i] / step;
+    };
+    const Constraints::Rows common = constraints.common_rows();
+    if (const std::size_t n_cuts = *common.begin(); constraints.shared())
+    {
+      for (std::size_t i = 0; i < n_cuts; ++i)
+        if (constraints.is_own(i))
+          add(i);
+      std::vector<double> sums;
+      for (const Work &own : works)
+        sums.insert(sums.end(), {own.a, own.b, own.c});
+      structure.communicator().sum(sums);
+      for (std::size_t g = 0; g < works.size(); ++g)
+        works[g] = {sums[3 * g], sums[3 * g + 1], sums[3 * g + 2]};
     }
+    std::for_each(common.begin(), common.end(), add);
     const auto largest_part = [](const Work &of)
     {
       if (of.a + of.b + of.c <= 0. || !(of.a > 0.))
@@ -259,6 +273,10 @@ namespace taut
         found = {relative, i};
       state.multiplier[i] = (p[i] + q[i]) / step;
     }
+    const double largest = constraints.max(found.largest);
+    if (found.largest < largest)
+      found.worst = no_link;
+    found.largest = largest;
     return found;
   }
 } // namespace taut

@@ -145,8 +145,12 @@ namespace taut
     double max(double value) const;
     bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
 
-    /// The values of all rows by their numbers, from those over the rows.
+    /// The sum of one value for each row of all ranks.
+    double total(const std::vector<double> &values) const;
+
+    /// The values of all rows by their numbers, from those over the rows; and back, in place.
     void gather(const std::vector<double> &values, std::vector<double> &all) const;
+    void pick(std::vector<double> &values) const;
 
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
 
