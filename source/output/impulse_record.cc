@@ -19,10 +19,11 @@ namespace taut
     /// Constraints between the same bodies that may share an impulse.
     constexpr std::size_t least_shared = 3;
 
-    /// Of each common row the DoFs of lumped bodies that a fixed rigid unilateral constraint acts
-    /// on, by number; empty: another one, or other bodies, too.
+    /// Of each of these rows the DoFs of lumped bodies that a fixed rigid unilateral constraint
+    /// acts on, by number; empty: another one, or other bodies, too.
     std::vector<std::vector<std::size_t>> lumped_ends(const Structure &structure,
-                                                      const Constraints &constraints)
+                                                      const Constraints &constraints,
+                                                      const std::vector<std::size_t> &rows)
     {
       double most_dofs = 1.;
       for (std::size_t k = 0; k < structure.size(); ++k)
@@ -30,7 +31,6 @@ namespace taut
           most_dofs = std::max<double>(most_dofs, structure[k].n_dofs());
       const auto stride = static_cast<std::size_t>(structure.communicator().max(most_dofs));
       MatrixEntries acts_on;
-      const Constraints::Rows rows = constraints.common_rows();
       for (std::size_t i = 0; i < rows.size(); ++i)
         for (const std::vector<Term> *const form : constraints[rows[i]].forms())
           for (const Term &term : *form)
@@ -65,19 +65,22 @@ namespace taut
 
   ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
                                const ConnectedBodies &groups, const State &start)
-      : first(*constraints.common_rows().begin()),
-        multiplier(start.multiplier.begin() + static_cast<std::ptrdiff_t>(first),
-                   start.multiplier.end()),
-        times(1, start.time)
+      : times(1, start.time)
   {
-    const auto ends = lumped_ends(structure, constraints);
-    std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> rows;
+    for (const std::size_t i : constraints.common_rows())
+      if (!constraints[i].is_cut())
+      {
+        rows.push_back(i);
+        multiplier.push_back(start.multiplier[i]);
+      }
+    const auto ends = lumped_ends(structure, constraints, rows);
+    std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> with_ends;
     for (std::size_t i = 0; i < ends.size(); ++i)
-      rows[{ends[i], constraints[first + i].rotational}].push_back(i);
+      with_ends[{ends[i], constraints[rows[i]].rotational}].push_back(i);
     item_of.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i)
     {
-      const std::vector<std::size_t> &alike = rows[{ends[i], constraints[first + i].rotational}];
+      const std::vector<std::size_t> &alike = with_ends[{ends[i], constraints[rows[i]].rotational}];
       const bool is_shared = !ends[i].empty() && alike.size() >= least_shared;
       if (is_shared && alike.front() < i)
       {
@@ -86,7 +89,7 @@ namespace taut
       }
       item_of[i] = items.size();
       items.push_back(
-          {first + i, 2 * groups.of_constraint(first + i) + constraints[first + i].rotational});
+          {rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational});
     }
     most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, items.size()), fewest_ends,
                            most_ends_of_few) /
@@ -99,9 +102,9 @@ namespace taut
   {
     for (std::size_t i = 0; i < multiplier.size(); ++i)
     {
-      const double N = state.multiplier[first + i];
+      const double N = state.multiplier[rows[i]];
       impulse[item_of[i]] +=
-          (report.is_mean(first + i) ? N : .5 * (N + multiplier[i])) * state.last_step;
+          (report.is_mean(rows[i]) ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
     if (++n_steps % stride != 0)

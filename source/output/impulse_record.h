@@ -13,7 +13,7 @@
 namespace taut
 {
   /**
-   * Impulses of constraints, but for cuts of distributed ones, since the start, at the ends of
+   * Impulses of constraints, but for cuts, since the start, at the ends of
    * steps. Use it to compare contacts of runs in other steps: a contact may be shorter than an
    * interval between samples. A long run keeps every second end, fourth end, and so on.
    *
@@ -59,13 +59,13 @@ namespace taut
       std::size_t row;   ///< the first one
       std::size_t group; ///< 2 g, or 2 g + 1 of rotational ones
     };
-    std::size_t first; ///< common row
+    std::vector<std::size_t> rows; ///< all but cuts
     std::vector<Item> items;
-    std::vector<std::size_t> item_of; ///< of each common row
+    std::vector<std::size_t> item_of; ///< of each of the rows
     std::size_t most_ends;            ///< that are kept; even
 
     std::vector<double> impulse;    ///< of the items so far [N s, N m s]
-    std::vector<double> multiplier; ///< of the common rows in the last step
+    std::vector<double> multiplier; ///< of the rows in the last step
     std::vector<double> times;      ///< ends of steps with recorded impulses [s]
     std::vector<double> impulses;   ///< of all items, time after time
     long stride = 1, n_steps = 0;   ///< one of so many ends is kept; steps so far

@@ -30,6 +30,7 @@ namespace taut
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     has_no_mass = constraints.without_mass();
+    problem.shared = constraints.shared();
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
     problem.cones.assign(n, Cone::zero());

@@ -38,3 +38,60 @@ TEST(Ranks, solids_in_parts_are_the_same)
   expect_same_solid("bracket_and_cables", {"Time/End=0.1"});
   expect_same_solid("block_impact", {"Time/End=0.1"});
 }
+
+namespace
+{
+  /// The rows of a rank, those of all ranks, and the common ones.
+  struct RowCounts
+  {
+    double own = 0., held = 0., all = 0., common = 0.;
+  };
+
+  RowCounts row_counts(const std::string &scene, const Overrides &overrides)
+  {
+    RowCounts result;
+    Session session(scene_file(scene), overrides + Overrides{"Output/Field interval=0"},
+                    taut::Communicator(MPI_COMM_WORLD));
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          const taut::Constraints &rows = view.constraints;
+          result = {0., static_cast<double>(rows.size()), static_cast<double>(rows.n_of_all()),
+                    static_cast<double>(rows.common_rows().size())};
+          for (std::size_t i = 0; i < rows.size(); ++i)
+          {
+            result.own += rows.is_own(i);
+            EXPECT_EQ(rows.index(rows.number(i)), i);
+          }
+        });
+    return result;
+  }
+} // namespace
+
+// Claim: where F is matrix-free, a rank has the cuts of its own bodies and no others, each is owned
+// by one rank, and contacts are on all of them; at rest and in steps. Expected: the run of one
+// process without cuts, U to 1e-9 of the largest, forces to 1e-7.
+TEST(Ranks, cuts_live_with_their_bodies)
+{
+  const taut::Communicator world(MPI_COMM_WORLD);
+  const Overrides matrix_free = {"Solver/Interface operator=matrix-free"};
+  for (const auto &[scene, more] :
+       {std::pair<std::string, Overrides>("hertz_cylinder", {}),
+        std::pair<std::string, Overrides>("block_impact", {"Time/End=0.1"}),
+        std::pair<std::string, Overrides>("block_impact",
+                                          {"Time/End=0.1", "Time/Scheme=generalised-alpha",
+                                           "Time/Allow unsuitable scheme=true"})})
+  {
+    SCOPED_TRACE(scene);
+    expect_same_solid(scene, matrix_free + more);
+    const RowCounts rows =
+        row_counts(scene, matrix_free + more + Overrides{"Partition/Number of substructures=16"});
+    EXPECT_EQ(world.size() > 1, rows.held < rows.all);
+    EXPECT_GT(rows.common, 0.);
+    double sums[] = {rows.own, rows.held - rows.common};
+    world.sum(sums, 2);
+    EXPECT_EQ(sums[0], rows.all);
+    // A cut is on two ranks at most.
+    EXPECT_LE(sums[1], 2. * (rows.all - rows.common));
+  }
+}
