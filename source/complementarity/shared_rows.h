@@ -32,6 +32,9 @@ namespace taut
 
     virtual bool is_own(std::size_t i) const = 0;
 
+    /// Whether no other rank has the row.
+    virtual bool is_alone(std::size_t i) const = 0;
+
     /// The largest value of all ranks, not-a-number if one is; and for each entry of vectors of one
     /// length on all ranks.
     virtual double max(double value) const = 0;

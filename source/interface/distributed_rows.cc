@@ -30,6 +30,9 @@ namespace taut
   {
     for (const std::size_t number : cuts.owned())
       is_own_cut[index(number)] = 1;
+    n_holders.assign(is_own_cut.size(), 1.);
+    cuts.add_shares(n_holders.data(), owned.data());
+    cuts.copy_to_holders(owned.data(), n_holders.data());
   }
 
   std::size_t DistributedRows::number(const std::size_t i) const

@@ -324,9 +324,10 @@ namespace taut
     return is_solved;
   }
 
-  /// The motions of the rows of all ranks, by their numbers.
+  /// The motions of the rows with these numbers, by them.
   std::vector<LinearForm>
-  MatrixFreeSchurComplement::by_numbers(const std::vector<LinearForm> &null_space) const
+  MatrixFreeSchurComplement::by_numbers(const std::vector<LinearForm> &null_space,
+                                        const std::vector<std::size_t> &wanted) const
   {
     const SharedRows *const shared = constraints.shared();
     if (!shared)
@@ -338,9 +339,13 @@ namespace taut
           entries.add(k, shared->number(i), null_space[k].value[e]);
     gather(rows().communicator(), entries);
     entries.compress();
+    std::vector<char> is_wanted(shared->n_of_all(), 0);
+    for (const std::size_t number : wanted)
+      is_wanted[number] = 1;
     std::vector<LinearForm> result(null_space.size());
     for (std::size_t e = 0; e < entries.size(); ++e)
-      result[entries.row[e]].add(entries.column[e], entries.value[e]);
+      if (is_wanted[entries.column[e]])
+        result[entries.row[e]].add(entries.column[e], entries.value[e]);
     return result;
   }
 
@@ -361,8 +366,8 @@ namespace taut
       for (std::size_t p = 0; p < values.size(); ++p)
         values[p] = all_active[blocks.rows[p]] > 0. ? values[p] / all_scales[blocks.rows[p]] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(by_numbers(null_space), all_scales, all_active,
-                                              rows(), blocks,
+    const NaturalCoarseProblem coarse_problem(by_numbers(null_space, blocks.rows), all_scales,
+                                              all_active, rows(), blocks,
                                               [&](std::vector<double> &values)
                                               {
                                                 divide(values);

@@ -88,7 +88,10 @@ namespace taut
                                 const BodyVectors &P, const PrescribedMotions &prescribed)
   {
     if (system.has_modes())
-      system.set_modes(P, problem);
+    {
+      system.set_modes(problem);
+      system.set_mode_loads(P, problem);
+    }
     // Loads that cancel leave their rounding, which no contact may be able to carry.
     for (std::size_t k = 0; k < problem.null_space_terms.size(); ++k)
       if (std::fabs(problem.null_space_load[k]) <= rounding_of_loads * problem.null_space_terms[k])
@@ -372,8 +375,6 @@ namespace taut
     remainder.shared = problem.shared;
     system.interface().contact_free_predictor(left, remainder.free_gap, remainder.gap_scale);
     constraints.sum({&remainder.free_gap, &remainder.gap_scale});
-    if (system.has_modes())
-      system.set_modes(on_modes, remainder);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       remainder.free_gap[i] += state.complementarity_gap[i];
@@ -381,7 +382,14 @@ namespace taut
       if (constraints.slides(i))
         remainder.gap_scale[i] += std::fabs(constraints[i].gap);
     }
-    return system.correct(remainder, solved, correction);
+    if (!system.has_modes())
+      return system.correct(remainder, solved, correction);
+    system.set_mode_loads(on_modes, remainder);
+    remainder.null_space_resistance = problem.null_space_resistance;
+    remainder.null_space.swap(problem.null_space); // lent: it is large
+    const bool is_found = system.correct(remainder, solved, correction);
+    remainder.null_space.swap(problem.null_space);
+    return is_found;
   }
 
   void ContactStep::add_correction(const BodyVectors &dU, State &state)

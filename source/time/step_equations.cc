@@ -146,40 +146,56 @@ namespace taut
     solvers.stiffness(k).vmult_add(-1., L.data(), P.data());
   }
 
-  void StepEquations::set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const
+  void StepEquations::set_modes(MixedComplementarityProblem &problem) const
   {
     const Communicator &processes = structure.communicator();
     const auto &modes = solvers.rigid_body_modes();
+    problem.null_space_resistance.assign(c.is_at_rest() ? 0 : n_modes, 0.);
+    if (!c.is_at_rest())
+      for (std::size_t k = 0; k < modes.size(); ++k)
+        std::copy(modes[k].resistance.begin(), modes[k].resistance.end(),
+                  problem.null_space_resistance.begin() +
+                      static_cast<std::ptrdiff_t>(first_of_body[k]));
+    processes.sum(problem.null_space_resistance);
+    // Other ranks need nothing of rows that they do not have.
+    const SharedRows *const shared = constraints.shared();
+    MatrixEntries G, own;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      MatrixEntries &to = shared && shared->is_alone(i) ? own : G;
+      for (const auto &[k, form, of] : constraints[i].terms)
+        for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
+          to.add(first_of_body[k] + v, constraints.number(i), form.dot(modes[k].vectors[v]));
+    }
+    gather(processes, G);
+    for (std::size_t e = 0; e < own.size(); ++e)
+      G.add(own.row[e], own.column[e], own.value[e]);
+    G.compress();
     problem.null_space.assign(n_modes, {});
+    for (std::size_t e = 0; e < G.size(); ++e)
+      if (const std::size_t i = constraints.index(G.column[e]);
+          G.value[e] != 0. && i != SharedRows::elsewhere)
+        problem.null_space[G.row[e]].add(static_cast<unsigned int>(i), G.value[e]);
+  }
+
+  void StepEquations::set_mode_loads(const BodyVectors &P,
+                                     MixedComplementarityProblem &problem) const
+  {
+    const auto &modes = solvers.rigid_body_modes();
     problem.null_space_load.assign(n_modes, 0.);
     problem.null_space_terms.assign(c.is_at_rest() ? n_modes : 0, 0.);
-    problem.null_space_resistance.assign(c.is_at_rest() ? 0 : n_modes, 0.);
     for (std::size_t k = 0; k < modes.size(); ++k)
       for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
       {
         const std::vector<double> &R = modes[k].vectors[v];
         problem.null_space_load[first_of_body[k] + v] =
             std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
-        if (!c.is_at_rest())
-          problem.null_space_resistance[first_of_body[k] + v] = modes[k].resistance[v];
-        else
+        if (c.is_at_rest())
           for (std::size_t i = 0; i < R.size(); ++i)
             problem.null_space_terms[first_of_body[k] + v] += std::fabs(R[i] * P[k][i]);
       }
-    MatrixEntries G;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      for (const auto &[k, form, of] : constraints[i].terms)
-        for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
-          G.add(first_of_body[k] + v, constraints.number(i), form.dot(modes[k].vectors[v]));
-    gather(processes, G);
-    G.compress();
-    for (std::size_t e = 0; e < G.size(); ++e)
-      if (const std::size_t i = constraints.index(G.column[e]);
-          G.value[e] != 0. && i != SharedRows::elsewhere)
-        problem.null_space[G.row[e]].add(static_cast<unsigned int>(i), G.value[e]);
-    processes.sum(problem.null_space_load);
-    processes.sum(problem.null_space_terms);
-    processes.sum(problem.null_space_resistance);
+    structure.communicator().sum(problem.null_space_load);
+    structure.communicator().sum(problem.null_space_terms);
   }
 
   const MixedComplementaritySolution &

@@ -75,8 +75,10 @@ namespace taut
     /// P -= A_k L for increments @p L of prescribed DoFs of a body.
     void lift(std::size_t k, const std::vector<double> &L, std::vector<double> &P) const;
 
-    /// Sets the rows of the amplitudes: G_ki = R_k . B_i, e_k = R_k . P, and their inertia.
-    void set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const;
+    /// Sets the rows of the amplitudes, G_ki = R_k . B_i, and their inertia; and their loads, e_k =
+    /// R_k . P.
+    void set_modes(MixedComplementarityProblem &problem) const;
+    void set_mode_loads(const BodyVectors &P, MixedComplementarityProblem &problem) const;
 
     /// Solves for multipliers and amplitudes. Errors come from @p check, iterations go into
     /// @p residuals. The result is valid until the next call.
