@@ -17,8 +17,23 @@ LEAST_CHANGE = 1e-3  # of a quantity that is drawn unasked, over its largest val
 PERCENTILES = (5, 50, 95)
 MOST_BARS = 24  # cases
 MOST_LETTERS = 44  # of a value beside a bar
+# Coefficients of Largest mean force that Statistics/Supply stands for, as parameters.md has them; without a limit up to v1 for DC.
+SUPPLIES = {"AC": (0.00047, 90, 200, 0.00097, 70), "DC 3 kV": (None, None, 200, 0.00097, 110), "DC 1.5 kV": (None, None, 200, 0.00097, 140)}
+KM_PER_H = 3.6  # of 1 m/s
 # What is drawn if nobody asks for more, in this order: of sliding contacts, of probes, of links.
 FIRST = ("mean", "standard deviation", "maximum", "contact loss", "largest", "largest force")
+
+
+def numbers_of(text):
+    return tuple(float(word) for word in text.split(",")) if text.strip() else ()
+
+
+def mean_force_limit(coefficients, speed):
+    """Over speeds [m/s], 'a, b' for a v^2 + b with v in km/h, 'a, b, v1, c, d' for c v^2 + d above v1; not a number: none [N]."""
+    v = KM_PER_H * speed
+    a, b = coefficients[:2]
+    low = np.full(v.shape, np.nan) if a is None else a * v**2 + b
+    return low if len(coefficients) == 2 else np.where(v > coefficients[2], coefficients[3] * v**2 + coefficients[4], low)
 
 
 class Sweep:
@@ -46,6 +61,14 @@ class Sweep:
         self.parameters = list(self.heads)
         self.is_random = int(entries.get("Sweep/Samples", "0")) > 0
         self.is_zipped = entries.get("Sweep/Combination") == "zipped" and not self.is_random
+        self.mean_force_limits = [(label, coefficients) for label, coefficients in (
+            ("largest mean, as given", numbers_of(entries.get("Statistics/Largest mean force", ""))),
+            ("least mean, as given", numbers_of(entries.get("Statistics/Least mean force", "")))) if coefficients]
+        supply = entries.get("Statistics/Supply", "none")
+        if supply in SUPPLIES and not entries.get("Statistics/Largest mean force", ""):
+            self.mean_force_limits.append((f"largest mean, {supply}, after EN 50367", SUPPLIES[supply]))
+        self.moving = {key[:-len("/Speed")].rpartition("/")[2].partition(" ")[2] for key in entries if key.endswith("/Speed")}
+        self.entries_of = {name: entries.get(f"Sweep/Parameter {name}/Entries", "") for name in self.parameters}
         self.units = {name: units.get(entries.get(f"Sweep/Parameter {name}/Entries", "").partition(",")[0].strip(), "")
                       for name in self.parameters}
 
@@ -111,9 +134,20 @@ def curves(sweep, quantities, parameter):
         if zipped:
             zipped_axis(panel, sweep, parameter, zipped)
         panel.set_ylabel(label.replace(": ", ":\n"))
+        if quantity.endswith(": mean [N]") and quantity[:-len(": mean [N]")] in sweep.moving and sweep.entries_of[parameter].partition(",")[0].strip().endswith("/Speed"):
+            draw_limits(panel, sweep, x)
     if others and len(set(keys)) <= 8:
         grid[0].legend()
     return figure
+
+
+def draw_limits(panel, sweep, speeds):
+    """Limits of the mean force over the speed."""
+    at = np.linspace(speeds.min(), speeds.max(), 200)
+    for label, coefficients in sweep.mean_force_limits:
+        panel.plot(at, mean_force_limit(coefficients, at), "--", color=ORANGE, linewidth=0.8, label=label)
+    if sweep.mean_force_limits:
+        panel.legend(fontsize=7)
 
 
 def zipped_axis(panel, sweep, parameter, others):

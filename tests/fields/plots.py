@@ -246,6 +246,21 @@ def check_sweep():
     expect("names of the bars", [text.get_text() for text in panel.get_yticklabels()] == ["sin(2*t)", "sin(3*t)"] and
            panel.get_xlabel() == "tip: largest [mm]", panel.get_xlabel())
 
+    # Mean force over the speed, in km/h 180, 252 and 360, with the curves of the standard and of the file, not for a sum of contacts.
+    (path / "sweep.csv").write_text("case,v,pan: mean [N],both: mean [N],message\n1,50,100,200,\n2,70,120,240,\n3,100,150,300,\n")
+    (path / "sweep.prm").write_text(
+        "subsection Sweep\n  subsection Parameter v\n    set Entries = Catenary/Pantograph pan/Speed\n  end\nend\nsubsection Catenary\n"
+        "  subsection Pantograph pan\n    # [m/s]\n    set Speed = 50\n  end\nend\nsubsection Statistics\n  set Supply = AC\n"
+        "  set Least mean force = 0.0004, 60\nend\n")
+    first, second = plot.sweep_picture(str(path), options())[0].axes
+    given, least, most = (line.get_xydata() for line in first.get_lines())
+    close("mean forces", given, [[50, 100], [70, 120], [100, 150]])
+    close("largest mean force at the ends", [most[0], most[-1]], [[50, 0.00047 * 180**2 + 90], [100, 0.00097 * 360**2 + 70]])
+    close("least mean force at the ends", [least[0], least[-1]], [[50, 0.0004 * 180**2 + 60], [100, 0.0004 * 360**2 + 60]])
+    expect("limits say what they are", [text.get_text() for text in first.get_legend().get_texts()] ==
+           ["least mean, as given", "largest mean, AC, after EN 50367"], first.get_legend())
+    expect("a sum has none", len(second.get_lines()) == 1, len(second.get_lines()))
+
 
 def check_elasticity():
     path = arguments.results / "elasticity"
