@@ -153,6 +153,19 @@ namespace taut
     return result;
   }
 
+  std::vector<LineItems> Catenary::items_of_parts() const
+  {
+    LineItems of_line = items;
+    of_line.is_rail = kind == "conductor rail";
+    of_line.hangs_in_turn = twin_droppers == "in turn";
+    if (tension_lengths.names.empty())
+      return {of_line};
+    std::vector<LineItems> result;
+    for (std::size_t i = 0; i < tension_lengths.items.size(); ++i)
+      result.push_back(tension_lengths.items[i].own.with(of_line, section_of(i)));
+    return result;
+  }
+
   void Catenary::add_masses(const std::string &name, const PantographItem &item, Scene &scene) const
   {
     const std::string section = "Catenary/Pantograph " + name;
@@ -333,32 +346,34 @@ namespace taut
 
   void Catenary::fill(Scene &scene) const
   {
-    check_wires();
-    LineItems all = items;
-    all.is_rail = kind == "conductor rail";
-    all.hangs_in_turn = twin_droppers == "in turn";
+    std::vector<LineItems> of_parts = items_of_parts();
+    check_wires(of_parts);
     const std::vector<LineLayout> parts = layouts();
-    all.is_in_space = is_in_space();
+    const bool in_space = is_in_space(of_parts);
     Line line;
     line.reserve(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
-      line.emplace_back(all, parts[i],
+    {
+      of_parts[i].is_in_space = in_space && !of_parts[i].is_rail;
+      line.emplace_back(of_parts[i], parts[i],
                         tension_lengths.names.empty() ? "" : tension_lengths.names[i],
                         section_of(i), scene);
+    }
     const std::vector<double> uplifts =
         parse_positions(uplift_positions, "Catenary/Uplift positions");
     check_uplift_positions(uplifts, line);
     check_pantographs(line);
-    for (TensionLength &part : line)
+    for (std::size_t i = 0; i < line.size(); ++i)
     {
+      TensionLength &part = line[i];
       part.check();
       part.add_supports();
       part.add_point_masses();
       part.add_vertical_loads();
       part.add_probes(uplifts);
-      if (all.is_in_space)
+      if (of_parts[i].is_in_space)
         part.add_lateral();
-      if (all.is_rail)
+      if (of_parts[i].is_rail)
         continue;
       part.add_stitch_wires();
       part.add_droppers();

@@ -4,6 +4,7 @@
 
 #include "scene/catenary_items.h"
 #include "scene/line_geometry.h"
+#include "scene/own_items.h"
 #include "scene/tension_length.h"
 
 #include "scene/travel.h"
@@ -47,11 +48,14 @@ namespace taut
     };
     using Line = std::vector<TensionLength>;
 
-    bool is_in_space() const;
+    bool is_in_space(const std::vector<LineItems> &of_parts) const;
     std::vector<LineLayout> layouts() const;
+
+    /// The items of each tension length; whether it is in space is not known yet.
+    std::vector<LineItems> items_of_parts() const;
     std::string section_of(std::size_t tension_length) const;
-    void check_given() const;
-    void check_wires() const;
+    void check_given(const LineItems &own, const LineLayout &part) const;
+    void check_wires(const std::vector<LineItems> &of_parts) const;
     void check_uplift_positions(const std::vector<double> &positions, const Line &line) const;
     void check_pantographs(const Line &line) const;
     /// The entry Speed of a pantograph in @p section.
@@ -77,7 +81,7 @@ namespace taut
     std::string kind = "catenary", twin_droppers = "both";
     LineItems items;
     LineGeometry geometry; ///< of the only tension length
-    NamedItems<LineGeometry> tension_lengths{
+    NamedItems<TensionLengthItem> tension_lengths{
         "Catenary", "Tension lengths", "Tension length",
         "parts of the line with wires of their own, which may overlap; empty: one"};
     std::string uplift_positions;

@@ -27,9 +27,10 @@ namespace taut
     }
   } // namespace
 
-  bool Catenary::is_in_space() const
+  bool Catenary::is_in_space(const std::vector<LineItems> &of_parts) const
   {
-    if (kind == "conductor rail")
+    if (std::all_of(of_parts.begin(), of_parts.end(),
+                    [](const LineItems &own) { return own.is_rail; }))
       return false;
     const std::vector<LineLayout> parts = layouts();
     const bool has_stagger =
@@ -51,11 +52,12 @@ namespace taut
   {
     // Twice and more of what overhead lines have; values in another unit are further off.
     constexpr double largest_stagger = 2., least_system_height = .1, largest_system_height = 10.;
-    const bool is_rail = kind == "conductor rail";
     std::vector<std::string> result;
     const std::vector<LineLayout> parts = layouts();
+    const std::vector<LineItems> of_parts = items_of_parts();
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
+      const bool is_rail = of_parts[i].is_rail;
       std::set<std::string> said;
       const auto say = [&](const std::string &what, const double value, const double x,
                            const std::string &reason)
@@ -87,36 +89,33 @@ namespace taut
     return result;
   }
 
-  void Catenary::check_given() const
+  void Catenary::check_given(const LineItems &own, const LineLayout &part) const
   {
     const LineItems usual;
     const std::string reference = "the reference line of EN 50318:2002";
-    items.contact.check_given("Contact wire", usual.contact, reference);
-    if (kind == "conductor rail")
+    own.contact.check_given("Contact wire", usual.contact, reference);
+    if (own.is_rail)
       return;
-    items.messenger.check_given("Messenger wire", usual.messenger, reference);
-    const std::vector<LineLayout> parts = layouts();
-    const bool has_stitches = std::any_of(parts.begin(), parts.end(),
-                                          [](const LineLayout &part)
-                                          {
-                                            return std::any_of(part.masts.begin(), part.masts.end(),
-                                                               [](const LineMast &mast)
-                                                               { return mast.stitch_length > 0.; });
-                                          });
-    if (has_stitches)
-      items.stitch.check_given("Stitch wires", usual.stitch, "a usual stitch wire");
+    own.messenger.check_given("Messenger wire", usual.messenger, reference);
+    if (std::any_of(part.masts.begin(), part.masts.end(),
+                    [](const LineMast &mast) { return mast.stitch_length > 0.; }))
+      own.stitch.check_given("Stitch wires", usual.stitch, "a usual stitch wire");
   }
 
-  void Catenary::check_wires() const
+  void Catenary::check_wires(const std::vector<LineItems> &of_parts) const
   {
-    const bool is_rail = kind == "conductor rail";
-    const std::pair<const LineWireItem *, const char *> wires[] = {
-        {&items.contact, "Contact wire"}, {&items.messenger, "Messenger wire"}};
-    check_given();
-    for (const auto &[wire, section] : wires)
-      if (!is_rail && !(wire->tension > 0.))
-        throw EntryError(std::string("Catenary/") + section + "/Tension",
-                         "it must be positive: the wire of an overhead line hangs by its tension");
+    const std::vector<LineLayout> parts = layouts();
+    for (std::size_t i = 0; i < of_parts.size(); ++i)
+    {
+      const LineItems &own = of_parts[i];
+      check_given(own, parts[i]);
+      for (const auto &[wire, section] :
+           {std::pair(&own.contact, "Contact wire"), std::pair(&own.messenger, "Messenger wire")})
+        if (!own.is_rail && !(wire->tension > 0.))
+          throw EntryError(
+              std::string("Catenary/") + section + "/Tension",
+              "it must be positive: the wire of an overhead line hangs by its tension");
+    }
     for (std::size_t i = 0; i < items.masses.items.size(); ++i)
     {
       std::vector<std::string> known = {"contact", "messenger"};

@@ -10,24 +10,25 @@
 
 namespace taut
 {
+  double parse_number(const std::string &text, const std::string &entry)
+  {
+    std::size_t used = 0;
+    double value = 0.;
+    try
+    {
+      value = std::stod(text, &used);
+    }
+    catch (const std::exception &)
+    {
+      used = 0;
+    }
+    if (used == 0 || used != text.size() || !std::isfinite(value))
+      throw EntryError(entry, "'" + text + "' is not a finite number");
+    return value;
+  }
+
   namespace
   {
-    double parse_number(const std::string &text, const std::string &entry)
-    {
-      std::size_t used = 0;
-      double value = 0.;
-      try
-      {
-        value = std::stod(text, &used);
-      }
-      catch (const std::exception &)
-      {
-        used = 0;
-      }
-      if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw EntryError(entry, "'" + text + "' is not a finite number");
-      return value;
-    }
     /// Attachments at points of a body or of the ground, "0.1, 0.2; 0.3, 0.2".
     std::vector<Attachment> on_body(Attachment attachment, const std::string &points,
                                     const std::string &entry, const bool is_cable)

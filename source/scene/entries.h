@@ -13,6 +13,9 @@ namespace taut
   /// entry.
   std::vector<double> parse_positions(const std::string &text, const std::string &entry);
 
+  /// A number; EntryError for any other text.
+  double parse_number(const std::string &text, const std::string &entry);
+
   /// A stiffness: a positive number, or "rigid" for infinity.
   double parse_stiffness(const std::string &text, const std::string &entry);
 
