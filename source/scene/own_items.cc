@@ -93,6 +93,8 @@ namespace taut
         throw EntryError(path, "it must not be negative");
       entry.of(result) = value;
     }
+    if (is_new_rail)
+      result.contact.remaining_mass = result.contact.remaining_bending = "1"; // the wires are worn
     const auto is_given = [&](const char *const path) { return !texts.at(path).empty(); };
     result.contact.has_mass |= is_given("Contact wire/Mass per length");
     result.contact.has_tension |= is_given("Contact wire/Tension");

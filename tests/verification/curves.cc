@@ -171,7 +171,15 @@ TEST(Curves, scene_of_the_page)
   // A beam turns within sqrt(EI / T) of a mast.
   const double turns = .5 * span / 800. * std::sqrt(195. / 20000.);
   EXPECT_NEAR(probes.at("middle [m]").front(), -.2 + span * span / 8. / 800. - turns, 1e-3);
-  EXPECT_NEAR(supports.at("steady arm at mast 6 force [N]").front(), -20000. * span / 800., 1.);
+  EXPECT_NEAR(supports.at("steady arm at mast bend 6 force [N]").front(), -20000. * span / 800.,
+              1.);
+  // Droppers at equal distances carry equal shares of a level wire.
+  const auto links = read_table(session.folder() + "/links.csv");
+  constexpr double weight = 1.07 * 9.81 * 10.;
+  EXPECT_NEAR(links.at("dropper bend 4.3 force [N]").front(), weight, .1);
+  EXPECT_NEAR(links.at("dropper worn 4.3 force [N]").front(), .9 * weight, .1);
+  const double sag = probes.at("rail at arm [m]").front() - probes.at("rail between [m]").front();
+  EXPECT_NEAR(sag, 5.9 * 9.81 * 1e4 / 384. / 2e5, 2e-5);
 }
 
 TEST(Curves, that_move_are_refused)
