@@ -165,7 +165,16 @@ TEST(Lines, vertical_loads_lift_their_wire)
 TEST(Curves, scene_of_the_page)
 {
   Session session(scene_file("line_in_a_curve"));
-  session.run();
+  double of_new = 0., of_worn = 0.; // droppers
+  session.run(
+      [&](const taut::StepView &view)
+      {
+        for (std::size_t i = 0; i < view.constraints.size(); ++i)
+          if (view.constraints[i].name == "dropper bend 4.3")
+            of_new = view.state.multiplier[i];
+          else if (view.constraints[i].name == "dropper worn 4.3")
+            of_worn = view.state.multiplier[i];
+      });
   const auto probes = read_table(session.folder() + "/probes.csv"),
              supports = read_table(session.folder() + "/supports.csv");
   // A beam turns within sqrt(EI / T) of a mast.
@@ -174,10 +183,9 @@ TEST(Curves, scene_of_the_page)
   EXPECT_NEAR(supports.at("steady arm at mast bend 6 force [N]").front(), -20000. * span / 800.,
               1.);
   // Droppers at equal distances carry equal shares of a level wire.
-  const auto links = read_table(session.folder() + "/links.csv");
   constexpr double weight = 1.07 * 9.81 * 10.;
-  EXPECT_NEAR(links.at("dropper bend 4.3 force [N]").front(), weight, .1);
-  EXPECT_NEAR(links.at("dropper worn 4.3 force [N]").front(), .9 * weight, .1);
+  EXPECT_NEAR(of_new, weight, .1);
+  EXPECT_NEAR(of_worn, .9 * weight, .1);
   const double sag = probes.at("rail at arm [m]").front() - probes.at("rail between [m]").front();
   EXPECT_NEAR(sag, 5.9 * 9.81 * 1e4 / 384. / 2e5, 2e-5);
 }
