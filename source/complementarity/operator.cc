@@ -9,7 +9,7 @@ namespace taut
                                                    const double shift, const SharedRows *shared,
                                                    std::vector<double> &result)
   {
-    std::vector<double> unit(size(), 0.), column, x, product(1);
+    std::vector<double> unit(size(), 0.), column, x, left(1);
     const bool is_empty = !(shared ? shared->max(set.empty() ? 0. : 1.) > 0. : !set.empty());
     result.assign(size(), 0.);
     for (const std::size_t i : wanted)
@@ -22,13 +22,14 @@ namespace taut
       unit[i] = 0.;
       if (!solve(set, column, 0., x) && !solve(set, column, shift, x))
         continue;
-      product[0] = 0.;
+      const auto is_own = [&](const std::size_t row) { return !shared || shared->is_own(row); };
+      left[0] = is_own(i) ? result[i] : 0.;
       for (const std::size_t b : set)
-        if (!shared || shared->is_own(b))
-          product[0] += column[b] * x[b];
+        if (is_own(b))
+          left[0] -= column[b] * x[b];
       if (shared)
-        shared->sum(product);
-      result[i] -= product[0];
+        shared->sum(left);
+      result[i] = left[0];
     }
   }
 } // namespace taut

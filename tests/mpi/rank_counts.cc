@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: messages and bytes of a rank in an iteration of conjugate gradients on a cut solid, and
-// the sums over the ranks, are bounded whatever the number of ranks; the numbers that are summed
-// are the modes of the coarse problem and some more. Source: MPI's own calls, counted in front of
-// it, in two solutions to different residuals; a part has eight neighbours. Environment:
-// TAUT_ELEMENTS, of a side of a part (8).
+// the sums over the ranks, are bounded whatever the number of ranks, and so are the cuts that a
+// rank has; the numbers that are summed are the modes of the coarse problem and some more. Source:
+// MPI's own calls, counted in front of it, in two solutions to different residuals; a part has
+// eight neighbours. Environment: TAUT_ELEMENTS, of a side of a part (8).
 #include "solid/box_in_parts.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ namespace
     SquareInParts(const unsigned int n, const unsigned int elements)
         : type(std::make_shared<const box_in_parts::BoxType<2>>(box_in_parts::Box{n, elements})),
           model(box_in_parts::scene<2>(type)), structure(model, cuts(n), processes),
-          constraints(taut::scene_constraints(model, structure)),
+          constraints(distributed(taut::scene_constraints(model, structure))),
           solvers(structure, "sparse direct"),
           F(taut::make_schur_complement({"matrix-free", "Dirichlet", "rigid body modes"}, solvers,
                                         constraints))
@@ -55,7 +55,7 @@ namespace
       std::iota(all.begin(), all.end(), 0);
       std::vector<double> gaps(n), x;
       for (std::size_t i = 0; i < n; ++i)
-        gaps[i] = std::cos(1. + 2. * i);
+        gaps[i] = std::cos(1. + 2. * constraints.number(i));
       F->matrix().set_tolerance(tolerance);
       const double before = F->statistics().n_iterations;
       counts = {};
@@ -66,6 +66,12 @@ namespace
     const taut::Communicator processes = taut::Communicator(MPI_COMM_WORLD);
 
   private:
+    static taut::Constraints distributed(taut::Constraints constraints)
+    {
+      constraints.distribute();
+      return constraints;
+    }
+
     taut::Partition cuts(const unsigned int n) const
     {
       taut::Partition partition;
@@ -156,14 +162,18 @@ TEST(RankCounts, an_iteration_is_bounded_on_any_number_of_ranks)
   const double messages = each(exact.messages, rough.messages),
                bytes = each(exact.bytes, rough.bytes), sums = each(exact.sums, rough.sums),
                summed = each(exact.summed, rough.summed), others = each(exact.others, rough.others),
-               modes = 3. * n * n; // of the parts
+               modes = 3. * n * n, // of the parts
+      rows = world.max(static_cast<double>(square.constraints.size()));
   if (world.is_root())
-    std::printf("| %u | %u | %zu | %.0f | %.1f | %.0f | %.1f | %.0f |\n", world.size(), n * n,
-                square.constraints.size(), many, messages, bytes, sums, summed);
+    std::printf("| %u | %u | %zu | %.0f | %.0f | %.1f | %.0f | %.1f | %.0f |\n", world.size(),
+                n * n, square.constraints.n_of_all(), rows, many, messages, bytes, sums, summed);
   // F, the preconditioner and the coarse space exchange values or shares some ten times.
   constexpr double exchanges = 10., neighbours = 8. * 4.;
   EXPECT_LE(messages, world.size() > 1 ? exchanges * std::min(neighbours, world.size() - 1.) : 0.);
   // Two numbers at each node on the boundaries of eight parts, of 8 bytes.
+  // At most eight parts a rank, each with nodes on four sides and up to two cuts of each of its
+  // two DoFs there.
+  EXPECT_LE(rows, 8. * 4. * (elements + 1.) * 2. * 2.);
   EXPECT_LE(bytes, exchanges * 8. * 2. * 8. * 4. * (elements + 1.));
   EXPECT_LE(sums, 12.);
   EXPECT_LE(summed, 2. * modes + 30.);
