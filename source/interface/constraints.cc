@@ -112,13 +112,13 @@ namespace taut
 
   double Constraints::total(const std::vector<double> &values) const
   {
-    std::vector<double> sum(1, 0.);
+    double sum = 0.;
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!shared_rows || shared_rows->is_own(i))
-        sum[0] += values[i];
+        sum += values[i];
     if (shared_rows)
-      shared_rows->sum(sum);
-    return sum[0];
+      structure.communicator().sum(&sum, 1);
+    return sum;
   }
 
   void Constraints::pick(std::vector<double> &values) const
