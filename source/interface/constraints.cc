@@ -45,23 +45,20 @@ namespace taut
 
   void Constraints::distribute()
   {
-    const auto end = std::stable_partition(constraints.begin(), constraints.begin() + first_turning,
-                                           [](const ConstraintData &c) { return c.is_cut(); });
-    const std::size_t n_of_cuts = end - constraints.begin();
-    std::vector<ConstraintData> own;
+    const std::size_t n_of_cuts = n_cuts, n_common = size() - n_of_cuts;
     std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      if (i < n_of_cuts && constraints[i].terms.empty())
-        continue;
-      if (i < n_of_cuts)
+    for (std::size_t i = 0; i < n_of_cuts; ++i)
+      if (!constraints[i].terms.empty())
+      {
+        if (numbers.size() < i)
+          constraints[numbers.size()] = std::move(constraints[i]);
         numbers.push_back(i);
-      own.push_back(std::move(constraints[i]));
-    }
-    const std::size_t n_common = constraints.size() - n_of_cuts,
-                      n_gone = constraints.size() - own.size();
-    constraints = std::move(own);
+      }
     n_cuts = numbers.size();
+    const std::size_t n_gone = n_of_cuts - n_cuts;
+    constraints.erase(constraints.begin() + static_cast<std::ptrdiff_t>(n_cuts),
+                      constraints.begin() + static_cast<std::ptrdiff_t>(n_of_cuts));
+    constraints.shrink_to_fit();
     first_turning -= n_gone;
     first_sliding -= n_gone;
     shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
@@ -180,6 +177,10 @@ namespace taut
     };
     first_turning = n_up_to(Geometry::Kind::fixed);
     first_sliding = n_up_to(Geometry::Kind::turning);
+    const auto end_of_fixed = constraints.begin() + static_cast<std::ptrdiff_t>(first_turning);
+    n_cuts = std::stable_partition(constraints.begin(), end_of_fixed,
+                                   [](const ConstraintData &c) { return c.is_cut(); }) -
+             constraints.begin();
   }
 
   void Constraints::arrange()

@@ -203,11 +203,11 @@ namespace taut
         own.c += p[i] * contacts.increments()[i] / step;
     };
     const Constraints::Rows common = constraints.common_rows();
-    if (const std::size_t n_cuts = *common.begin(); constraints.shared())
+    for (std::size_t i = 0; i < *common.begin(); ++i)
+      if (!constraints.shared() || constraints.is_own(i))
+        add(i);
+    if (constraints.shared())
     {
-      for (std::size_t i = 0; i < n_cuts; ++i)
-        if (constraints.is_own(i))
-          add(i);
       std::vector<double> sums;
       for (const Work &own : works)
         sums.insert(sums.end(), {own.a, own.b, own.c});
