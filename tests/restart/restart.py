@@ -159,13 +159,16 @@ def check_killed(folder, n, ranks, scenes, rng):
         expect("checkpoints are used", n_resumed >= n / 3, n_resumed)
 
 
-def check_other_ranks(folder, scene):
-    """Killed on two ranks, resumed on one, and the other way round: tables over the largest number of each unit."""
+def check_other_ranks(folder, scene, bound):
+    """Killed on two ranks, resumed on one, and the other way round: tables over the largest number of each unit. With a
+    matrix-free F several ranks have other rows than one, and conjugate gradients end elsewhere."""
     pieces = [*scene, "--set", "Partition/Number of substructures=4"]
     reference = folder / "reference_other"
+    shutil.rmtree(reference, ignore_errors=True)
     run(reference, pieces)
     for first, second in ((2, 1), (1, 2)):
         own = folder / f"other_{first}"
+        shutil.rmtree(own, ignore_errors=True)
         kill_after_checkpoint(own, pieces, first)
         result = run(own, [*pieces, "--resume"], second)
         what = f"{first} ranks, resumed on {second}"
@@ -173,7 +176,7 @@ def check_other_ranks(folder, scene):
         expect(f"{what}: says so", f"written by {first} ranks" in result.stdout, result.stdout)
         for table in ("sliding.csv", "links.csv", "probes.csv"):
             worst = largest_difference(own / "results" / table, reference / "results" / table)
-            expect(f"{what}: {table}", worst <= 1e-9, worst)
+            expect(f"{what}: {table}", worst <= bound, worst)
 
 
 def check_bad(folder):
@@ -268,7 +271,8 @@ with tempfile.TemporaryDirectory() as name:
         ranks.mkdir()
         two = [[*SCENES[i], "--set", "Partition/Number of substructures=4"] for i in (0, 1)]
         check_killed(ranks, arguments.parallel, 2, two, rng)
-        check_other_ranks(ranks, SCENES[0])
+        for scene, bound in (SCENES[0], 1e-9), (SCENES[2], 1e-8):
+            check_other_ranks(ranks, scene, bound)
     if arguments.bad:
         check_bad(folder)
 
