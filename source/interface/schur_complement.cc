@@ -140,7 +140,9 @@ namespace taut
     bool is_nonlinear = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
       is_nonlinear = is_nonlinear || !structure[k].is_linear();
-    if (processes.size() == 1 || !constraints.turning_rows().empty() || processes.any(is_nonlinear))
+    const bool has_cuts = constraints.common_rows().size() < constraints.size();
+    if (processes.size() == 1 || !has_cuts || !constraints.turning_rows().empty() ||
+        processes.any(is_nonlinear))
       return false;
     if (parameters.form == "matrix-free")
       return true;
