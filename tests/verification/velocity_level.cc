@@ -162,7 +162,8 @@ TEST(MoreauJean, cuts_do_not_drift)
                 {
                   if (in_pieces)
                     drift = std::max(drift, view.residuals.drift);
-                  (in_pieces ? cut : whole) += view.state.multiplier[0];
+                  (in_pieces ? cut : whole) +=
+                      view.state.multiplier[view.constraints.index_of_link(0)];
                 });
     }
     figure("string on stop in 7 pieces, Moreau-Jean, " + conditions[0].substr(28) +
