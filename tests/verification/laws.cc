@@ -359,9 +359,10 @@ TEST(Laws, cuts_and_forms_do_not_matter)
     run_scene(beam_under_laws,
               {"Time.Scheme=" + scheme, "Time.Allow unsuitable scheme=true",
                "Solver.Interface operator=" + form, "Partition.Number of substructures=" + parts},
-              [&](const taut::StepView &view) {
-                all.insert(all.end(), view.state.multiplier.begin(),
-                           view.state.multiplier.begin() + 11);
+              [&](const taut::StepView &view)
+              {
+                for (std::size_t link = 0; link < 11; ++link)
+                  all.push_back(view.state.multiplier[view.constraints.index_of_link(link)]);
               });
     return all;
   };
