@@ -102,9 +102,9 @@ namespace taut
                                   const Coordinates &motion);
 
   /**
-   * The constraints of a system, with rows in the order fixed, turning, sliding. All ranks have all
-   * of them, unless they are distributed: each rank then has the cuts that act on its bodies, and
-   * all ranks have the other rows, the common ones.
+   * The constraints of a system, with rows in the order cuts, other fixed ones, turning, sliding.
+   * All ranks have all of them, unless they are distributed: each rank then has the cuts that act
+   * on its bodies. All ranks have the rows that are no cuts, the common ones.
    */
   class Constraints
   {
@@ -113,8 +113,8 @@ namespace taut
     /// see check_constraint(). Called by all ranks together.
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints);
 
-    /// Each rank drops the cuts that do not act on its bodies, and has its cuts before all other
-    /// rows. Only without turning constraints. Called by all ranks together.
+    /// Each rank drops the cuts that do not act on its bodies. Only without turning constraints,
+    /// and for a matrix-free F. Called by all ranks together.
     void distribute();
 
     /// The distributed rows; null: all ranks have all of them.
@@ -124,8 +124,8 @@ namespace taut
     std::size_t size() const { return constraints.size(); }
     std::size_t n_of_all() const;
 
-    /// The rows that all ranks have, which come after the cuts of this rank; and whether a row is
-    /// owned by this rank: each is by one.
+    /// The rows that are no cuts, which all ranks have; and whether a row is owned by this rank:
+    /// each is by one.
     boost::integer_range<std::size_t> common_rows() const { return {n_cuts, size()}; }
     bool is_own(std::size_t i) const;
 
