@@ -122,7 +122,7 @@ namespace taut
       double n_dofs = 0.;
       for (const Structure::Body &body : run.motion.bodies().all_bodies())
         n_dofs += static_cast<double>(body.n_dofs);
-      return work_of_step + n_dofs + static_cast<double>(run.motion.links().size());
+      return work_of_step + n_dofs + static_cast<double>(run.motion.links().n_of_all());
     }
 
     /// An estimate before the run.
@@ -231,7 +231,7 @@ namespace taut
                                    : static_cast<double>(run.motion.n_newton_iterations());
     work = n_solutions * work_of_solution(run) +
            static_cast<double>(n_iterations) *
-               (work_of_step + static_cast<double>(run.motion.links().size()));
+               (work_of_step + static_cast<double>(run.motion.links().n_of_all()));
     const bool affords_shorter = affords(1. / ratio_of_steps);
     std::optional<MotionDifference> coarse;
     // A looser tolerance says less than a tighter one.

@@ -144,7 +144,8 @@ namespace taut
       const auto measure = [&](const double value, const std::string &unit, const std::size_t row)
       {
         json entry = json_quantity(value, unit);
-        entry["largest_at"] = (*all.rows)[row].name;
+        if (row < all.rows->size())
+          entry["largest_at"] = (*all.rows)[row].name;
         return entry;
       };
       entry["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);

@@ -104,9 +104,10 @@ namespace taut
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
       archive &f.largest_impulse &f.gap &f.motion &f.last &f.end;
     }
-    std::size_t number = constraints.number(found.gap_constraint);
+    const std::size_t n = constraints.n_of_all();
+    std::size_t number = found.gap > 0. ? constraints.number(found.gap_constraint) : n;
     archive &found.gap &number;
-    found.gap_constraint = constraints.index(number);
+    found.gap_constraint = number < n ? constraints.index(number) : 0;
   }
 
   void ContactMeasures::save(OutputArchive &archive)

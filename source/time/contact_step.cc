@@ -491,7 +491,7 @@ namespace taut
   double ContactStep::agreed(const double own, std::size_t &worst) const
   {
     const double all = constraints.max(own);
-    if (own < all)
+    if (!(own >= all) && !std::isnan(own))
       worst = no_link;
     return all;
   }

@@ -575,7 +575,7 @@ namespace taut
 
   std::vector<std::size_t> Motion::repeated_joints() const
   {
-    return parts->step.equations().repeated_rows().all_partners();
+    return constraints.here(parts->step.equations().repeated_rows().all_partners());
   }
 
   template <typename Archive>
@@ -595,7 +595,16 @@ namespace taut
     archive &p.length &p.step_before &p.segment_start &p.n_in_segment &p.n_steps;
     for (double &size : p.errors.largest_motions)
       archive &size;
+    std::vector<double> &opened = p.control.times_of_opening();
+    const bool has_opened = constraints.any(!opened.empty());
+    if (has_opened && Archive::is_saving::value)
+    {
+      const std::vector<double> own = opened;
+      constraints.gather(own, opened);
+    }
     archive &p.control;
+    if (has_opened)
+      constraints.pick(opened);
   }
 
   void Motion::save(OutputArchive &archive)

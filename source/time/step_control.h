@@ -50,6 +50,9 @@ namespace taut
 
     long n_repeated() const { return repeated; }
 
+    /// The time when each constraint was open, stored with the position [s].
+    std::vector<double> &times_of_opening() { return last_open; }
+
     /// Stores the position, for a checkpoint.
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)

@@ -57,7 +57,7 @@ namespace taut
       return;
     std::vector<std::vector<double>> all = numbers();
     for (std::vector<double> &values : all)
-      if (!values.empty())
+      if (constraints.any(!values.empty()))
       {
         const std::vector<double> own = values;
         constraints.gather(own, values);

@@ -275,7 +275,7 @@ namespace taut
       state.multiplier[i] = (p[i] + q[i]) / step;
     }
     const double largest = constraints.max(found.largest);
-    if (found.largest < largest)
+    if (!(found.largest >= largest) && !std::isnan(found.largest))
       found.worst = no_link;
     found.largest = largest;
     return found;
