@@ -44,6 +44,21 @@ namespace taut
       return result;
     }
 
+    /// Calls @p add with each null space vector, on the rows that count on this rank, and adds up
+    /// @p sums over the ranks.
+    template <typename Add>
+    void sum_over_null_space(const MixedComplementarityProblem &problem, std::vector<double> &sums,
+                             const Add &add)
+    {
+      for (std::size_t k = 0; k < problem.n_null_space(); ++k)
+        if (problem.shared)
+          add(k, of_own_rows(problem, k));
+        else
+          add(k, problem.null_space[k]);
+      if (problem.shared)
+        problem.shared->sum(sums);
+    }
+
     double relative(double numerator, double denominator)
     {
       if (numerator == 0.)
@@ -158,13 +173,7 @@ namespace taut
         sums[2 * k + 1] += weight * g * g;
       }
     };
-    for (std::size_t k = 0; k < n_modes; ++k)
-      if (problem.shared)
-        add_sums(k, of_own_rows(problem, k));
-      else
-        add_sums(k, problem.null_space[k]);
-    if (problem.shared)
-      problem.shared->sum(sums);
+    sum_over_null_space(problem, sums, add_sums);
     for (std::size_t k = 0; k < n_modes; ++k)
     {
       const LinearForm &vector = problem.null_space[k];
@@ -243,13 +252,7 @@ namespace taut
         sums[2 * k + 1] += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);
       }
     };
-    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
-      if (problem.shared)
-        add_sums(k, of_own_rows(problem, k));
-      else
-        add_sums(k, problem.null_space[k]);
-    if (problem.shared)
-      problem.shared->sum(sums);
+    sum_over_null_space(problem, sums, add_sums);
     for (std::size_t k = 0; k < problem.n_null_space(); ++k)
     {
       double balance = problem.null_space_load[k];
