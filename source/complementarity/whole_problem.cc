@@ -14,10 +14,18 @@ namespace taut
   {
     const SharedRows &rows = *problem.shared;
     MixedComplementarityProblem result;
-    // Rows that are not on all ranks are joints.
-    result.cones.assign(rows.n_of_all(), Cone::free());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      result.cones[rows.number(i)] = problem.cones[i];
+    std::vector<char> may_open, is_free;
+    for (const Cone cone : problem.cones)
+    {
+      may_open.push_back(cone.may_open());
+      is_free.push_back(cone.is_free());
+    }
+    may_open = gathered(rows, may_open);
+    is_free = gathered(rows, is_free);
+    for (std::size_t i = 0; i < rows.n_of_all(); ++i)
+      result.cones.push_back(is_free[i]    ? Cone::free()
+                             : may_open[i] ? Cone::half_line()
+                                           : Cone::zero());
     rows.gather(problem.free_gap, result.free_gap);
     if (!problem.gap_scale.empty())
       rows.gather(problem.gap_scale, result.gap_scale);

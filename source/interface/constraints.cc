@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <sstream>
 #include <tuple>
 
 namespace taut
@@ -414,15 +416,49 @@ namespace taut
     }
   }
 
-  std::string Constraints::names(const std::vector<std::size_t> &indices) const
+  std::vector<Constraints::Label> Constraints::labels(const std::vector<std::size_t> &numbers) const
+  {
+    std::map<std::size_t, Label> found;
+    for (const std::size_t i : here(numbers))
+      found[number(i)] = {constraints[i].name, constraints[i].origin};
+    if (shared_rows)
+    {
+      std::string own;
+      for (const auto &[number, label] : found)
+        if (is_own(index(number)))
+          own += std::to_string(number) + '\n' + label.name + '\n' + label.origin + '\n';
+      for (const std::string &text : structure.communicator().gather(own))
+      {
+        std::istringstream lines(text);
+        Label label;
+        for (std::string number; std::getline(lines, number) && std::getline(lines, label.name) &&
+                                 std::getline(lines, label.origin);)
+          found[std::stoul(number)] = label;
+      }
+    }
+    std::vector<Label> result;
+    for (const auto &[number, label] : found)
+      result.push_back(label);
+    return result;
+  }
+
+  std::string Constraints::names(const std::vector<Label> &labels)
   {
     std::string text;
-    const std::size_t shown = std::min<std::size_t>(indices.size(), 8);
+    const std::size_t shown = std::min<std::size_t>(labels.size(), 8);
     for (std::size_t k = 0; k < shown; ++k)
-      text += (k == 0 ? "'" : ", '") + constraints[indices[k]].name + "'";
-    if (shown < indices.size())
-      text += " and " + std::to_string(indices.size() - shown) + " more";
+      text += (k == 0 ? "'" : ", '") + labels[k].name + "'";
+    if (shown < labels.size())
+      text += " and " + std::to_string(labels.size() - shown) + " more";
     return text;
+  }
+
+  std::size_t Constraints::number_of_any(const std::size_t i) const
+  {
+    if (!shared_rows)
+      return i;
+    const double found = shared_rows->max(i < size() ? static_cast<double>(number(i)) : -1.);
+    return found < 0. ? no_link : static_cast<std::size_t>(found);
   }
 
   double ConstraintSpring::force(const double u) const

@@ -108,7 +108,10 @@ namespace taut
       if (!together.empty() && n_steps++ == 0)
       {
         first = state.time;
-        names = step.constraints.names(together);
+        std::vector<std::size_t> numbers;
+        for (const std::size_t i : together)
+          numbers.push_back(step.constraints.number(i));
+        names = step.constraints.names(numbers);
       }
     }
     const Constraints::Rows common = step.constraints.common_rows();

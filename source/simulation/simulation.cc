@@ -167,7 +167,7 @@ namespace taut
     std::vector<std::size_t> massless;
     for (std::size_t i = 0; i < links.size(); ++i)
       if (links[i].is_link() && is_massless(model.links[links[i].link]))
-        massless.push_back(i);
+        massless.push_back(links.number(i));
     if (!massless.empty())
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";

@@ -107,7 +107,7 @@ namespace taut
     const std::size_t n = constraints.n_of_all();
     std::size_t number = found.gap > 0. ? constraints.number(found.gap_constraint) : n;
     archive &found.gap &number;
-    found.gap_constraint = number < n ? constraints.index(number) : 0;
+    found.gap_constraint = number < n ? constraints.index(number) : no_link;
   }
 
   void ContactMeasures::save(OutputArchive &archive)
@@ -181,8 +181,9 @@ namespace taut
     {
       const Force &force = forces[i];
       if (force.gap > most_steps_of_motion * force.motion && force.gap > energy.noise(i) &&
-          force.motion > 0.)
-        result.gap_drifts = true;
+          force.motion > 0. &&
+          (result.drifting_row == no_link || force.gap > forces[result.drifting_row].gap))
+        result.drifting_row = i;
       if (!(force.peak > result.resolution * force.mean_peak) || !(force.mean_peak > 0.))
         continue;
       result.resolution = force.peak / force.mean_peak;

@@ -78,16 +78,17 @@ namespace taut
       add("motion_energy", s.relative_motion_energy, suspicious_energy, 0.,
           "bodies that move by large amounts gained ", s.motion_energy, " J from nowhere. ",
           remedy());
-    if (s.gap_drifts)
+    if (s.drifting_row != no_link)
     {
-      const bool turns = constraints[s.gap_constraint].rotational;
+      const bool turns = constraints[s.drifting_row].rotational;
+      const double gap = forces[s.drifting_row].gap;
       result.push_back({"contact_gap",
-                        to_text(std::setprecision(3), "'", constraints[s.gap_constraint].name,
-                                "' presses across a gap of ", s.gap, turns ? " rad" : " m",
+                        to_text(std::setprecision(3), "'", constraints[s.drifting_row].name,
+                                "' presses across a gap of ", gap, turns ? " rad" : " m",
                                 ", or penetrates as far: more than the motion of two steps. Set "
                                 "'Time/Scheme' to 'automatic', or 'Moreau-Jean/Conditions' to "
                                 "'gaps then velocities'"),
-                        s.gap, 0., turns ? "rad" : "m", 0.});
+                        gap, 0., turns ? "rad" : "m", 0.});
     }
     for (std::size_t i = 0; i < forces.size(); ++i)
       if (forces[i].end.force > pressed_at_end * forces[i].peak)

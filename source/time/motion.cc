@@ -510,7 +510,7 @@ namespace taut
     if (!(of_rates.largest <= p.residuals.complementarity))
     {
       p.residuals.complementarity = of_rates.largest;
-      p.residuals.worst_constraint = of_rates.worst;
+      p.residuals.worst_constraint = constraints.number_of_any(of_rates.worst);
     }
     p.step.check().check_constraints(p.residuals);
     StepReport &report = p.step.report();
@@ -575,7 +575,7 @@ namespace taut
 
   std::vector<std::size_t> Motion::repeated_joints() const
   {
-    return constraints.here(parts->step.equations().repeated_rows().all_partners());
+    return parts->step.equations().repeated_rows().all_partners();
   }
 
   template <typename Archive>

@@ -95,7 +95,7 @@ namespace taut
             state.complementarity_gap,
             state.distance,
             {},
-            constraints.here(repeated_rows().all_partners())};
+            repeated_rows().all_partners()};
   }
 
   void StaticStep::find_increments()

@@ -181,14 +181,6 @@ namespace taut
     return correct(state, own_history.loads());
   }
 
-  /// Rows of this rank whose gaps follow from each other's, with that of a row.
-  std::vector<std::size_t> Step::partners_of(const std::size_t row) const
-  {
-    if (row >= constraints.size())
-      return {};
-    return constraints.here(equations().repeated_rows().partners(constraints.number(row)));
-  }
-
   void Step::certify(State &state, Residuals &residuals)
   {
     for (int refinements = 0;
@@ -196,10 +188,12 @@ namespace taut
          ++refinements)
       measure_balance(state, residuals);
     residuals.worst_body = own_balance.worst_body();
-    residuals.complementarity =
-        own_contacts.residual(state, equations(), residuals.worst_constraint);
+    std::size_t worst = no_link;
+    residuals.complementarity = own_contacts.residual(state, equations(), worst);
+    residuals.worst_constraint = constraints.number_of_any(worst);
     residuals.drift = own_contacts.drift(state);
-    own_check.check_constraints(residuals, partners_of(residuals.worst_constraint));
+    own_check.check_constraints(residuals,
+                                equations().repeated_rows().partners(residuals.worst_constraint));
     own_check.check_balance(residuals, own_balance.residual());
     own_costs.lap(StepPart::residuals);
   }

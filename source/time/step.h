@@ -86,7 +86,6 @@ namespace taut
     InterfaceStatistics interface_statistics() const;
 
   private:
-    std::vector<std::size_t> partners_of(std::size_t row) const;
     /// Equations with the coefficients that they are prepared for.
     struct ReusedValues
     {

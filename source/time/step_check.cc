@@ -38,23 +38,24 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      structure.communicator().agree([&] { fail_contradictory(constraints.here(e.rows())); });
+      fail_contradictory(constraints.labels(e.rows()));
       throw;
     }
   }
 
-  void StepCheck::fail_contradictory(const std::vector<std::size_t> &rows) const
+  void StepCheck::fail_contradictory(const std::vector<Constraints::Label> &rows) const
   {
     if (rows.empty())
       return;
-    const bool is_one = rows.size() == 1;
-    fail((is_one ? "no force satisfies link " + constraints.names(rows) +
-                       ": its ends are held where it does not let them be. Remove it, give it"
-                 : "the links " + constraints.names(rows) +
-                       " contradict each other, or what holds their ends: no contact forces "
-                       "satisfy them all. Remove one of them, give one") +
+    const std::string names = Constraints::names(rows);
+    fail((rows.size() == 1
+              ? "no force satisfies link " + names +
+                    ": its ends are held where it does not let them be. Remove it, give it"
+              : "the links " + names +
+                    " contradict each other, or what holds their ends: no contact forces "
+                    "satisfy them all. Remove one of them, give one") +
              " a finite stiffness, or check the initial gaps",
-         constraints.origin(rows.front()));
+         rows.front().origin);
   }
 
   void StepCheck::check_constraints(const Residuals &residuals,
@@ -62,19 +63,13 @@ namespace taut
   {
     if (residuals.complementarity <= tolerance)
       return;
-    const std::size_t worst = residuals.worst_constraint;
-    structure.communicator().agree(
-        [&]
-        {
-          fail_contradictory(partners);
-          if (worst < constraints.size())
-            fail(to_text("link '", constraints[worst].name,
-                         "' misses the contact tolerance: residual ", residuals.complementarity,
-                         " > ", tolerance, ". ", remedy(residuals.complementarity)),
-                 constraints.origin(worst));
-        });
-    fail(to_text("the contact tolerance is missed: residual ", residuals.complementarity, " > ",
-                 tolerance, ". ", remedy(residuals.complementarity)));
+    fail_contradictory(constraints.labels(partners));
+    const std::string missed =
+        to_text("the contact tolerance: residual ", residuals.complementarity, " > ", tolerance,
+                ". ", remedy(residuals.complementarity));
+    for (const Constraints::Label &worst : constraints.labels({residuals.worst_constraint}))
+      fail("link '" + worst.name + "' misses " + missed, worst.origin);
+    fail("the step misses " + missed);
   }
 
   void StepCheck::check_balance(const Residuals &residuals, const double own_balance) const

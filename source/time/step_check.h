@@ -32,8 +32,8 @@ namespace taut
       named(std::cref(work)); // a reference allocates nothing
     }
 
-    /// Checks that the constraints hold. @p partners are those of this rank that the
-    /// worst one repeats. Called by all ranks together.
+    /// Checks that the constraints hold. @p partners are the numbers of those that the worst one
+    /// repeats. Called by all ranks together.
     void check_constraints(const Residuals &residuals,
                            const std::vector<std::size_t> &partners = {}) const;
 
@@ -46,7 +46,7 @@ namespace taut
 
   private:
     void named(const std::function<void()> &work) const;
-    void fail_contradictory(const std::vector<std::size_t> &rows) const;
+    void fail_contradictory(const std::vector<Constraints::Label> &rows) const;
     [[noreturn]] void fail(const std::string &what, const std::string &entry = "") const;
     std::string remedy(double residual) const;
 

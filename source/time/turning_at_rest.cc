@@ -123,8 +123,9 @@ namespace taut
       return;
     for (std::vector<double> *v : {&state.multiplier, &state.complementarity_gap, &state.distance})
       v->resize(all.size());
-    if (state.residuals.worst_constraint >= all.size())
-      state.residuals.worst_constraint = source[state.residuals.worst_constraint - all.size()];
+    if (std::size_t &worst = state.residuals.worst_constraint;
+        worst >= all.size() && worst != no_link)
+      worst = source[worst - all.size()];
   }
 
   std::vector<double> TurningAtRest::gaps(const BodyVectors &U) const

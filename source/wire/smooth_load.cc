@@ -15,45 +15,60 @@ namespace taut
   {
     constexpr std::size_t most_elements = 96, least_elements = 4;
 
-    /// Chebyshev points of a panel, and places where its polynomial is compared with the formula in
-    /// each step.
-    constexpr unsigned int n_chebyshev = 12, n_compared = 4;
+    /// Numbers of Chebyshev points of a panel; the least that suffices is taken. A wave takes pi
+    /// points a length, and some twelve for the digits of a panel: the more lengths a panel has,
+    /// the fewer points each of them takes.
+    constexpr unsigned int least_points = 12, n_counts = 4, most_points = n_counts * least_points;
+
+    /// Difference between the matrices of panels that count as one, over the largest entry: above
+    /// the rounding of places, and far below the errors of polynomials.
+    constexpr double same = 1e-10;
+
+    /// Places where the polynomial of a panel is compared with the formula in each step.
+    constexpr unsigned int n_compared = 4;
 
     /// Times of a window at which the load is looked at in each element.
     constexpr unsigned int n_looks = 8;
     constexpr int no_window = std::numeric_limits<int>::min();
 
-    using Weights = std::array<double, n_chebyshev>;
+    using Weights = std::array<double, most_points>;
 
     /// The Chebyshev points of the first kind on (0, 1), and their barycentric weights: Berrut and
     /// Trefethen, SIAM Review 46 (2004), p. 501.
     struct ChebyshevPoints
     {
-      ChebyshevPoints()
+      explicit ChebyshevPoints(const unsigned int n) : n(n)
       {
-        for (unsigned int k = 0; k < n_chebyshev; ++k)
+        for (unsigned int k = 0; k < n; ++k)
         {
-          const double angle = M_PI * (k + .5) / n_chebyshev;
+          const double angle = M_PI * (k + .5) / n;
           points[k] = .5 - .5 * std::cos(angle);
           weights[k] = k % 2 ? -std::sin(angle) : std::sin(angle);
         }
       }
+      unsigned int n;
       Weights points, weights;
     };
 
-    const ChebyshevPoints &chebyshev()
+    const ChebyshevPoints &chebyshev(const unsigned int n)
     {
-      static const ChebyshevPoints result;
-      return result;
+      static const std::vector<ChebyshevPoints> all = []
+      {
+        std::vector<ChebyshevPoints> result;
+        for (unsigned int n = least_points; n <= most_points; n += least_points)
+          result.emplace_back(n);
+        return result;
+      }();
+      return all[n / least_points - 1];
     }
 
-    /// Of the values at the Chebyshev points in the value at u.
-    Weights weights_at(const double u)
+    /// Of the values at @p n Chebyshev points in the value at u.
+    Weights weights_at(const double u, const unsigned int n)
     {
-      const ChebyshevPoints &of = chebyshev();
+      const ChebyshevPoints &of = chebyshev(n);
       Weights result;
       double sum = 0.;
-      for (unsigned int k = 0; k < n_chebyshev; ++k)
+      for (unsigned int k = 0; k < n; ++k)
       {
         const double from_point = u - of.points[k];
         if (from_point == 0.)
@@ -65,17 +80,36 @@ namespace taut
         result[k] = of.weights[k] / from_point;
         sum += result[k];
       }
-      for (double &weight : result)
-        weight /= sum;
+      for (unsigned int k = 0; k < n; ++k)
+        result[k] /= sum;
       return result;
     }
 
-    double value_of(const Weights &weights, const double *const values)
+    double value_of(const Weights &weights, const double *const values, const unsigned int n)
     {
       double result = 0.;
-      for (unsigned int k = 0; k < n_chebyshev; ++k)
+      for (unsigned int k = 0; k < n; ++k)
         result += weights[k] * values[k];
       return result;
+    }
+
+    /// Adds the product of a matrix, column by column, with as many values as it has columns.
+    void add_product(const std::vector<double> &matrix, const double *const values,
+                     const unsigned int n_columns, double *const sum)
+    {
+      constexpr unsigned int at_once = 4;
+      static_assert(least_points % at_once == 0);
+      vectorised(
+          [&matrix, values, n_columns, sum]
+          {
+            const std::size_t n_rows = matrix.size() / n_columns;
+            const double *column = matrix.data();
+            for (unsigned int k = 0; k < n_columns; k += at_once, column += at_once * n_rows)
+              for (std::size_t i = 0; i < n_rows; ++i)
+                sum[i] += column[i] * values[k] + column[i + n_rows] * values[k + 1] +
+                          column[i + 2 * n_rows] * values[k + 2] +
+                          column[i + 3 * n_rows] * values[k + 3];
+          });
     }
 
     double largest_of(const double *const values, const std::size_t n)
@@ -110,18 +144,18 @@ namespace taut
     /// By a polynomial, with the @p weights of its values at all Gauss points of the panel.
     bool resolves(const Panel &panel, const std::vector<Weights> &weights) const
     {
-      std::vector<double> places, at_points(n_chebyshev);
-      for (const double u : chebyshev().points)
-        places.push_back(panel.begin + panel.length * u);
+      std::vector<double> places, at_points(panel.n_points);
+      for (unsigned int k = 0; k < panel.n_points; ++k)
+        places.push_back(panel.begin + panel.length * chebyshev(panel.n_points).points[k]);
       load.magnitude.evaluate(places, t, at_points);
-      const double accepted =
-          LoadIntegral::of_polynomial *
-          std::max({largest_of(&values[panel.first], panel.last - panel.first),
-                    largest_of(at_points.data(), n_chebyshev), LoadIntegral::least_part * largest});
+      const double accepted = LoadIntegral::of_polynomial *
+                              std::max({largest_of(&values[panel.first], panel.last - panel.first),
+                                        largest_of(at_points.data(), panel.n_points),
+                                        LoadIntegral::least_part * largest});
       for (std::size_t e = panel.first; e < panel.last; ++e)
       {
         const Weights &own = weights[(e - panel.first) * LoadedElement::n_points + point_of(e)];
-        if (!(std::fabs(value_of(own, at_points.data()) - values[e]) <= accepted))
+        if (!(std::fabs(value_of(own, at_points.data(), panel.n_points) - values[e]) <= accepted))
           return false;
       }
       return true;
@@ -179,12 +213,13 @@ namespace taut
     for (std::size_t p = 0; p < n_panels; ++p)
       if (!split(p * n / n_panels, (p + 1) * n / n_panels, looks))
         return;
-    places.resize(panels.size() * (n_chebyshev + n_compared));
-    values.resize(places.size());
-    auto place = places.begin();
+    places.clear();
     for (const Panel &panel : panels)
-      for (const double u : chebyshev().points)
-        *place++ = panel.begin + panel.length * u;
+      for (unsigned int k = 0; k < panel.n_points; ++k)
+        places.push_back(panel.begin + panel.length * chebyshev(panel.n_points).points[k]);
+    n_nodes = places.size();
+    places.resize(n_nodes + panels.size() * n_compared);
+    values.resize(places.size());
     is_smooth = true;
   }
 
@@ -193,30 +228,53 @@ namespace taut
   {
     if (last - first < least_elements)
       return false;
-    Panel panel{first, last, elements[first].begin, 0., {}};
+    for (unsigned int n = least_points; n <= most_points; n += least_points)
+      if (add_panel(first, last, n, looks))
+        return true;
+    const std::size_t middle = (first + last) / 2;
+    return split(first, middle, looks) && split(middle, last, looks);
+  }
+
+  /// False if so many points do not resolve the load at all looks.
+  bool SmoothLoad::add_panel(const std::size_t first, const std::size_t last,
+                             const unsigned int n_points, const std::vector<Look> &looks) const
+  {
+    Panel panel{first, last, n_points, elements[first].begin, 0., nullptr};
     panel.length = elements[last - 1].begin + elements[last - 1].length - panel.begin;
     std::vector<Weights> weights;
     weights.reserve((last - first) * LoadedElement::n_points);
     for (std::size_t e = first; e < last; ++e)
       for (const double s : elements[e].places)
-        weights.push_back(weights_at((s - panel.begin) / panel.length));
+        weights.push_back(weights_at((s - panel.begin) / panel.length, n_points));
     if (!std::all_of(looks.begin(), looks.end(),
                      [&](const Look &look) { return look.resolves(panel, weights); }))
-    {
-      const std::size_t middle = (first + last) / 2;
-      return split(first, middle, looks) && split(middle, last, looks);
-    }
-    panel.matrix.assign(((last - first - 1) * dofs_between + n_dofs) * n_chebyshev, 0.);
+      return false;
+    const std::size_t n_rows = (last - first - 1) * dofs_between + n_dofs;
+    std::vector<double> matrix(n_rows * n_points);
     const double *force = &forces[first * LoadedElement::n_points * n_dofs];
     for (std::size_t i = 0; i < weights.size(); ++i)
-    {
-      double *row = &panel.matrix[i / LoadedElement::n_points * dofs_between * n_chebyshev];
-      for (unsigned int j = 0; j < n_dofs; ++j, ++force, row += n_chebyshev)
-        for (unsigned int k = 0; k < n_chebyshev; ++k)
-          row[k] += *force * weights[i][k];
-    }
+      for (unsigned int j = 0; j < n_dofs; ++j, ++force)
+        for (unsigned int k = 0; k < n_points; ++k)
+          matrix[k * n_rows + i / LoadedElement::n_points * dofs_between + j] +=
+              *force * weights[i][k];
+    panel.matrix = shared(std::move(matrix), n_points);
     panels.push_back(std::move(panel));
     return true;
+  }
+
+  /// The matrix, or that of a panel before which is the same: where elements are alike. Then it
+  /// stays in the cache.
+  std::shared_ptr<const std::vector<double>> SmoothLoad::shared(std::vector<double> &&matrix,
+                                                                const unsigned int n_points) const
+  {
+    const double accepted = same * largest_of(matrix.data(), matrix.size());
+    for (const Panel &panel : panels)
+      if (panel.n_points == n_points && panel.matrix->size() == matrix.size() &&
+          std::equal(matrix.begin(), matrix.end(), panel.matrix->begin(),
+                     [accepted](const double a, const double b)
+                     { return std::fabs(a - b) <= accepted; }))
+        return panel.matrix;
+    return std::make_shared<const std::vector<double>>(std::move(matrix));
   }
 
   void SmoothLoad::add(const double t, std::vector<double> &P,
@@ -225,49 +283,41 @@ namespace taut
     // The fraction of a multiple of the time, and from place to place by the golden ratio.
     constexpr double multiple = 15485863.618, golden = 0.61803398874989485;
     const double start = std::fmod(std::fabs(t) * multiple, 1.);
-    std::array<Weights, n_compared> weights;
-    auto place = places.begin() + panels.size() * n_chebyshev;
+    std::array<std::array<Weights, n_counts>, n_compared> weights;
+    auto place = places.begin() + n_nodes;
     for (unsigned int j = 0; j < n_compared; ++j)
     {
       const double u = std::fmod(start + j * golden, 1.);
-      weights[j] = weights_at(u);
+      for (unsigned int k = 0; k < n_counts; ++k)
+        weights[j][k] = weights_at(u, (k + 1) * least_points);
       for (const Panel &panel : panels)
         *place++ = panel.begin + panel.length * u;
     }
     magnitude.evaluate(places, t, values);
     const double negligible = LoadIntegral::least_part * largest_of(values.data(), values.size());
-    for (std::size_t p = 0; p < panels.size(); ++p)
+    const double *at_nodes = values.data(), *at_places = values.data() + n_nodes;
+    for (const Panel &panel : panels)
     {
-      const Panel &panel = panels[p];
-      const double *const at_nodes = &values[p * n_chebyshev];
-      const double *const at_places = &values[panels.size() * n_chebyshev + p];
-      double largest = largest_of(at_nodes, n_chebyshev), error = 0.;
+      const unsigned int count = panel.n_points / least_points - 1;
+      double largest = largest_of(at_nodes, panel.n_points), error = 0.;
       for (unsigned int j = 0; j < n_compared; ++j)
       {
         const double value = at_places[j * panels.size()];
         largest = std::max(largest, std::fabs(value));
-        error = std::max(error, std::fabs(value_of(weights[j], at_nodes) - value));
+        error = std::max(error,
+                         std::fabs(value_of(weights[j][count], at_nodes, panel.n_points) - value));
       }
-      if (largest <= LoadIntegral::of_polynomial * negligible)
-        continue;
-      if (error <= LoadIntegral::of_polynomial * std::max(largest, negligible))
-        vectorised(
-            [&P, &panel, at_nodes, first = panel.first * dofs_between]
-            {
-              const double *row = panel.matrix.data();
-              const std::size_t n_rows = panel.matrix.size() / n_chebyshev;
-              double *const sum = &P[first];
-              for (std::size_t i = 0; i < n_rows; ++i, row += n_chebyshev)
-              {
-                double force = 0.;
-                for (unsigned int k = 0; k < n_chebyshev; ++k)
-                  force += row[k] * at_nodes[k];
-                sum[i] += force;
-              }
-            });
-      else
-        for (std::size_t e = panel.first; e < panel.last; ++e)
-          other(e);
+      double *const sum = &P[panel.first * dofs_between];
+      if (largest > LoadIntegral::of_polynomial * negligible)
+      {
+        if (error > LoadIntegral::of_polynomial * std::max(largest, negligible))
+          for (std::size_t e = panel.first; e < panel.last; ++e)
+            other(e);
+        else
+          add_product(*panel.matrix, at_nodes, panel.n_points, sum);
+      }
+      at_nodes += panel.n_points;
+      ++at_places;
     }
   }
 } // namespace taut

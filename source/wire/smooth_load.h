@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace taut
@@ -46,6 +47,10 @@ namespace taut
 
     void choose(double t) const;
     bool split(std::size_t first, std::size_t last, const std::vector<Look> &looks) const;
+    std::shared_ptr<const std::vector<double>> shared(std::vector<double> &&matrix,
+                                                      unsigned int n_points) const;
+    bool add_panel(std::size_t first, std::size_t last, unsigned int n_points,
+                   const std::vector<Look> &looks) const;
 
     Expression magnitude;
     const Elements &elements;
@@ -55,14 +60,17 @@ namespace taut
     mutable int window;
     mutable bool is_smooth = false;
     mutable std::vector<Panel> panels;
-    mutable std::vector<double> places, values; ///< nodes of all panels, then their other places
+    mutable std::size_t n_nodes = 0;            ///< Chebyshev points of all panels
+    mutable std::vector<double> places, values; ///< at these, then at their other places
   };
 
   struct SmoothLoad::Panel
   {
-    std::size_t first, last;    ///< its elements, the last one excluded
-    double begin, length;       ///< [m]
-    std::vector<double> matrix; ///< forces on the DoFs by unit values at each node
+    std::size_t first, last; ///< its elements, the last one excluded
+    unsigned int n_points;   ///< Chebyshev points
+    double begin, length;    ///< [m]
+    /// Forces on the DoFs by unit values at each point; panels of elements alike share it.
+    std::shared_ptr<const std::vector<double>> matrix;
   };
 } // namespace taut
 

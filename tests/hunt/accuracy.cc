@@ -62,7 +62,8 @@ TEST(HuntOfAccuracy, errors_are_at_most_those_expected)
                                                                    std::getenv("TAUT_HUNT_SEED");
   const int n_scenes = given ? std::atoi(given) : 15;
   const unsigned long seed = seeds ? std::strtoul(seeds, nullptr, 10) : 1;
-  int n_kept = 0, n_nearly = 0, n_wrong = 0, n_refused = 0, n_undecided = 0;
+  int n_promised = 0, n_kept = 0, n_nearly = 0, n_wrong = 0, n_refused = 0, n_undecided = 0;
+  double largest = 0.;
   for (std::size_t number = 0, n = 0; n < std::size_t(n_scenes); ++number)
   {
     const hunt::HuntScene scene = hunt::make_scene(seed, number);
@@ -103,7 +104,11 @@ TEST(HuntOfAccuracy, errors_are_at_most_those_expected)
     if (!refused.empty())
       ++n_refused;
     else
+    {
       ++(error <= expected ? n_kept : error <= 2. * expected ? n_nearly : n_wrong);
+      n_promised += error <= accuracy;
+      verification::raise(largest, error);
+    }
     if (std::getenv("TAUT_HUNT_VERBOSE"))
       std::printf("%4zu %-16s error %9.2e expected %9.2e %s\n", number, scene.family.c_str(), error,
                   expected, refused.c_str());
@@ -111,9 +116,13 @@ TEST(HuntOfAccuracy, errors_are_at_most_those_expected)
       std::printf("scene %zu: error %g, expected %g\n%s", number, error, expected,
                   scene.text.c_str());
   }
+  const int n_found = n_kept + n_nearly + n_wrong;
+  std::printf("promised %g: kept %d of %d, largest error %g\n", accuracy, n_promised, n_found,
+              largest);
   std::printf("at most expected %d, at most twice %d, wrong %d, refused %d, undecided %d\n", n_kept,
               n_nearly, n_wrong, n_refused, n_undecided);
-  const int n_found = n_kept + n_nearly + n_wrong;
+  EXPECT_GE(n_promised, .9 * n_found);
+  EXPECT_LE(largest, 2. * accuracy);
   EXPECT_GE(n_kept, .9 * n_found - 1.);
   EXPECT_LE(n_wrong, .02 * n_found);
   EXPECT_GE(n_found, .6 * (n_scenes - n_undecided));

@@ -137,7 +137,8 @@ namespace taut
     std::vector<std::size_t> here(const std::vector<std::size_t> &numbers) const;
 
     /// Each entry of vectors over the rows becomes the sum of what the ranks that have the row have
-    /// there, by one message. Called by all ranks together, as are the next ones.
+    /// there, by one message. Called by all ranks together, as are the next ones, to
+    /// number_of_any().
     void sum(std::initializer_list<std::vector<double> *> vectors) const;
     void sum(std::vector<double> &values) const { sum({&values}); }
 
@@ -147,6 +148,26 @@ namespace taut
 
     /// The sum of one value for each row of all ranks.
     double total(const std::vector<double> &values) const;
+
+    /// How a message calls a row: its name, and its path in the parameter file, which may be empty.
+    struct Label
+    {
+      std::string name, origin;
+    };
+
+    /// Labels of rows of all ranks by their numbers, ascending. A rank that has a row names it.
+    std::vector<Label> labels(const std::vector<std::size_t> &numbers) const;
+
+    /// Names of rows for a message: "'a', 'b' and 3 more".
+    static std::string names(const std::vector<Label> &labels);
+    std::string names(const std::vector<std::size_t> &numbers) const
+    {
+      return names(labels(numbers));
+    }
+
+    /// The number of a row that some rank has, the largest of those named; @p i: the index, no_link
+    /// on other ranks and where there is none.
+    std::size_t number_of_any(std::size_t i) const;
 
     /// The values of all rows by their numbers, from those over the rows; and back, in place.
     void gather(const std::vector<double> &values, std::vector<double> &all) const;
@@ -262,9 +283,6 @@ namespace taut
 
     /// Path of a constraint in the parameter file, for messages; may be empty.
     const std::string &origin(std::size_t i) const { return constraints[i].origin; }
-
-    /// Names of constraints for a message: "a, b and 3 more".
-    std::string names(const std::vector<std::size_t> &indices) const;
 
   private:
     /// An entry of B.

@@ -57,11 +57,11 @@ namespace taut
 
     struct Summary : EnergySummary
     {
-      double gap = 0.; ///< [m, rad]
-      std::size_t gap_constraint = 0;
-      bool gap_drifts = false; ///< more than the motion of a step
-      double resolution = 1.;  ///< [1]
-      std::size_t resolution_row = 0;
+      double gap = 0.;                      ///< [m, rad]
+      std::size_t gap_constraint = no_link; ///< none: no gap
+      std::size_t drifting_row = no_link;   ///< its gap is the largest above the motion of a step
+      double resolution = 1.;               ///< [1]
+      std::size_t resolution_row = no_link;
       double peak = 0., mean_peak = 0., mean_time = 0.; ///< of this constraint [N, N m; s]
     };
     Summary summary() const;

@@ -148,8 +148,8 @@ namespace taut
     std::string interface_description() const;
     InterfaceStatistics interface_statistics() const;
 
-    /// Rigid joints that repeated each other in the last step, see RepeatedRows; iterative solves
-    /// do not find them.
+    /// Numbers of rigid joints that repeated each other in the last step, see RepeatedRows;
+    /// iterative solves do not find them.
     std::vector<std::size_t> repeated_joints() const;
 
     /// Where the time of the steps goes; those of a prepared motion differ from those before.

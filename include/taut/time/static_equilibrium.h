@@ -18,7 +18,7 @@ namespace taut
     std::vector<double> complementarity_gap; ///< D [m, rad]
     std::vector<double> distance;            ///< D - S N [m, rad]
     Residuals residuals;
-    std::vector<std::size_t> repeated_joints = {}; ///< see RepeatedRows
+    std::vector<std::size_t> repeated_joints = {}; ///< numbers, see RepeatedRows
   };
 
   /**
