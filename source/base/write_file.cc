@@ -39,26 +39,23 @@ namespace taut
       file.close();
     }
 
-    /// A name beside @p path that no other process takes, on any machine of the disk.
-    std::string own_name(const fs::path &path)
+    void rename(const std::string &from, const fs::path &path, const bool syncs)
     {
-      char host[256] = "";
-      gethostname(host, sizeof(host) - 1);
-      return to_text(path.string(), ".", host, ".", getpid(), ".tmp");
+      const fs::path folder = path.parent_path();
+      if (std::rename(from.c_str(), path.c_str()) != 0 ||
+          (syncs && !sync_folder(folder.empty() ? "." : folder)))
+        throw NotWritten("cannot write '" + path.string() + "': " + std::strerror(errno) +
+                         "; check that its folder is writable and the disk not full");
     }
 
     /// Writes the file beside its place, and renames it.
     void put_in_place(const fs::path &path, const std::string &bytes, const bool syncs)
     {
-      const std::string next = own_name(path);
+      const std::string next = unfinished_name(path.string());
       try
       {
         write_new(next, bytes, syncs);
-        const fs::path folder = path.parent_path();
-        if (std::rename(next.c_str(), path.c_str()) != 0 ||
-            (syncs && !sync_folder(folder.empty() ? "." : folder)))
-          throw NotWritten("cannot write '" + path.string() + "': " + std::strerror(errno) +
-                           "; check that its folder is writable and the disk not full");
+        rename(next, path, syncs);
       }
       catch (...)
       {
@@ -81,5 +78,17 @@ namespace taut
   void replace_file(const std::string &path, const std::string &bytes)
   {
     put_in_place(path, bytes, true);
+  }
+
+  std::string unfinished_name(const std::string &path)
+  {
+    char host[256] = "";
+    gethostname(host, sizeof(host) - 1);
+    return to_text(path, ".", host, ".", getpid(), ".tmp");
+  }
+
+  void finish_file(const std::string &unfinished, const std::string &path)
+  {
+    rename(unfinished, path, true);
   }
 } // namespace taut

@@ -14,6 +14,13 @@ namespace taut
   /// As write_file(), and safe if the machine ends meanwhile: waits until the new file is on the
   /// disk.
   void replace_file(const std::string &path, const std::string &bytes);
+
+  /// A name beside @p path that no other process takes, on any machine of the disk.
+  std::string unfinished_name(const std::string &path);
+
+  /// Puts a file of that name, whose bytes are on the disk, in the place of @p path, as
+  /// replace_file().
+  void finish_file(const std::string &unfinished, const std::string &path);
 } // namespace taut
 
 #endif

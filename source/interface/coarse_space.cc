@@ -31,11 +31,17 @@ namespace taut
       first += before;
   }
 
-  void CoarseSpace::setup(const std::vector<char> &active, const std::vector<char> &is_changed,
+  void CoarseSpace::setup(const RowMap &rows, const std::vector<char> &active,
+                          const std::vector<char> &is_changed,
                           const std::vector<double> &compliance)
   {
-    set_columns(active);
-    solvers.structure().communicator().agree(
+    const Constraints &constraints = body_constraints.all();
+    position.assign(constraints.size(), no_link);
+    for (std::size_t p = 0; p < rows.held().size(); ++p)
+      if (const std::size_t i = constraints.index(rows.held()[p]); i < position.size())
+        position[i] = p;
+    set_columns(rows, active);
+    rows.communicator().agree(
         [&]
         {
           for (std::size_t k = 0; k < body_constraints.size(); ++k)
@@ -46,21 +52,15 @@ namespace taut
     for (const MatrixEntries &response : responses)
       for (std::size_t e = 0; e < response.size(); ++e)
         entries.add(response.row[e], response.column[e], response.value[e]);
-    gather(solvers.structure().communicator(), entries);
-    std::vector<double> S;
-    body_constraints.all().gather(compliance, S);
-    for (std::size_t i = 0; i < Z.size(); ++i)
-      for (const auto &[k, z] : Z[i])
-        if (S[i] > 0.)
-          entries.add(i, k, S[i] * z);
-    entries.compress();
-    FZ.assign(Z.size(), {});
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      FZ[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
-    factor();
+    for (std::size_t p = 0; p < rows.owned().size(); ++p)
+      if (const double S = compliance[constraints.index(rows.owned()[p])]; S > 0.)
+        for (const auto &[k, z] : Z[rows.position_of_owned(p)])
+          entries.add(rows.owned()[p], k, S * z);
+    set_rows(rows, entries, FZ);
+    factor(rows);
   }
 
-  void CoarseSpace::set_columns(const std::vector<char> &active)
+  void CoarseSpace::set_columns(const RowMap &rows, const std::vector<char> &active)
   {
     MatrixEntries entries;
     for (std::size_t k = 0; k < body_constraints.size(); ++k)
@@ -72,20 +72,31 @@ namespace taut
             if (z != 0.)
               entries.add(body_constraints.all().number(entry.constraint), first_column[k] + v, z);
           }
-    gather(solvers.structure().communicator(), entries);
-    Z.assign(body_constraints.all().n_of_all(), {});
+    set_rows(rows, entries, Z);
+  }
+
+  /// Sums the entries over the ranks, by the positions of held rows.
+  void CoarseSpace::set_rows(const RowMap &rows, MatrixEntries &entries,
+                             std::vector<Row> &result) const
+  {
+    rows.sum_entries(entries, n_columns);
+    result.assign(rows.held().size(), {});
+    std::size_t p = 0;
     for (std::size_t e = 0; e < entries.size(); ++e)
-      Z[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
+    {
+      while (rows.held()[p] != static_cast<std::size_t>(entries.row[e]))
+        ++p;
+      result[p].emplace_back(entries.column[e], entries.value[e]);
+    }
   }
 
   /// Adds responses of a body to its own columns and those of its neighbours.
   void CoarseSpace::add_responses(const std::size_t k, const std::vector<char> &active)
   {
-    const Constraints &constraints = body_constraints.all();
     responses[k] = {};
     std::map<std::size_t, std::vector<double>> loads;
     for (const BodyConstraints::Entry &entry : body_constraints[k])
-      for (const auto &[column, z] : Z[constraints.number(entry.constraint)])
+      for (const auto &[column, z] : Z[position[entry.constraint]])
       {
         std::vector<double> &load = loads[column];
         load.resize(solvers.structure()[k].n_dofs(), 0.);
@@ -96,25 +107,31 @@ namespace taut
       solvers[k].solve(load);
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         if (active[entry.constraint])
-          responses[k].add(constraints.number(entry.constraint), column, entry.form.dot(load));
+          responses[k].add(body_constraints.all().number(entry.constraint), column,
+                           entry.form.dot(load));
     }
   }
 
-  void CoarseSpace::factor()
+  /// E is whole on each rank, of which each adds the products of the rows that it owns.
+  void CoarseSpace::factor(const RowMap &rows)
   {
     if (n_columns == 0)
       return;
     SymmetricEntries entries;
-    std::vector<double> diagonal(n_columns, 0.);
-    for (std::size_t i = 0; i < FZ.size(); ++i)
+    for (std::size_t p = 0; p < rows.owned().size(); ++p)
+    {
+      const std::size_t i = rows.position_of_owned(p);
       for (const auto &[column, value] : FZ[i])
         for (const auto &[k, z] : Z[i])
           if (k <= column)
-          {
             entries.add(column, k, z * value);
-            if (k == column)
-              diagonal[k] += z * value;
-          }
+    }
+    entries.compress();
+    gather(rows.communicator(), entries);
+    std::vector<double> diagonal(n_columns, 0.);
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (entries.row[e] == entries.column[e])
+        diagonal[entries.row[e]] += entries.value[e];
     for (std::size_t k = 0; k < n_columns; ++k)
       // Rigid body modes of a group without active rows would make E singular and the columns of Z
       // dependent; their part in Z E^-1 Z^T is zero.
@@ -133,7 +150,7 @@ namespace taut
     {
       std::fill(result.begin(), result.end(), 0.);
       for (std::size_t p = 0; p < x.size(); ++p)
-        for (const auto &[k, a] : A[rows.owned()[p]])
+        for (const auto &[k, a] : A[rows.position_of_owned(p)])
           result[k] += a * x[p];
       rows.communicator().sum(result);
     }
@@ -143,7 +160,7 @@ namespace taut
                      const std::vector<double> &y, std::vector<double> &x)
     {
       for (std::size_t p = 0; p < x.size(); ++p)
-        for (const auto &[k, a] : A[rows.owned()[p]])
+        for (const auto &[k, a] : A[rows.position_of_owned(p)])
           x[p] += factor * a * y[k];
     }
   } // namespace

@@ -28,8 +28,8 @@ namespace taut
     CoarseSpace(const FactoredStructure &solvers, const BodyConstraints &body_constraints);
 
     /// Sets up for the active rows, with the arguments of InterfacePreconditioner::setup().
-    void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
-               const std::vector<double> &compliance);
+    void setup(const RowMap &rows, const std::vector<char> &active,
+               const std::vector<char> &is_changed, const std::vector<double> &compliance);
 
     /// Number of columns of Z.
     std::size_t size() const { return n_columns; }
@@ -42,9 +42,12 @@ namespace taut
     void project(const RowMap &rows, std::vector<double> &z) const;
 
   private:
-    void set_columns(const std::vector<char> &active);
+    using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry
+
+    void set_columns(const RowMap &rows, const std::vector<char> &active);
+    void set_rows(const RowMap &rows, MatrixEntries &entries, std::vector<Row> &result) const;
     void add_responses(std::size_t k, const std::vector<char> &active);
-    void factor();
+    void factor(const RowMap &rows);
 
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
@@ -52,11 +55,9 @@ namespace taut
     std::vector<std::size_t> first_column;                     ///< first column of each body
     std::size_t n_columns = 0;
 
-    // By the numbers of the rows, on all ranks.
-    using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry
-    std::vector<Row> Z;
+    std::vector<std::size_t> position;    ///< of a constraint among the held rows
+    std::vector<Row> Z, FZ;               ///< the held rows
     std::vector<MatrixEntries> responses; ///< B_k^T A_k^-1 B_k Z of each body of this rank
-    std::vector<Row> FZ;
     SparseCholesky E;
     mutable std::vector<double> amplitude;
   };

@@ -245,7 +245,7 @@ namespace taut
       is_stale = true; // until both are ready
       preconditioner.setup(rows(), wanted, is_changed, compliance, flexibilities.diagonal());
       if (coarse_space)
-        coarse_space->setup(wanted, is_changed, compliance);
+        coarse_space->setup(rows(), wanted, is_changed, compliance);
       active = wanted;
       is_stale = false;
       std::fill(is_changed.begin(), is_changed.end(), 0);

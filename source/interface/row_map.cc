@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/interface/row_map.h>
 
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Export.h>
 #include <Epetra_Import.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_MpiDistributor.h>
@@ -152,6 +154,43 @@ namespace taut
     for (const Neighbour &holder : neighbours)
       for (std::size_t e = 0; e < holder.lent.size(); ++e)
         sums[holder.lent[e]] += holder.received[e];
+  }
+
+  namespace
+  {
+    void check(const int error)
+    {
+      if (error < 0) // others are warnings
+        throw std::runtime_error("entries of a matrix cannot be sent between ranks: error " +
+                                 std::to_string(error) + " of Epetra");
+    }
+  } // namespace
+
+  void RowMap::sum_entries(MatrixEntries &entries, const std::size_t n_columns) const
+  {
+    entries.compress();
+    if (processes.size() == 1 || n_columns == 0)
+      return;
+    const auto of_held = held_map();
+    const Epetra_Map columns(static_cast<int>(n_columns), 0, *epetra);
+    Epetra_CrsMatrix shares(Copy, *of_held, 0), sums(Copy, *owned_map, 0),
+        result(Copy, *of_held, 0);
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      check(shares.InsertGlobalValues(entries.row[e], 1, &entries.value[e], &entries.column[e]));
+    check(shares.FillComplete(columns, *owned_map));
+    check(sums.Export(shares, Epetra_Export(*of_held, *owned_map), Add));
+    check(sums.FillComplete(columns, *owned_map));
+    check(result.Import(sums, Epetra_Import(*of_held, *owned_map), Insert));
+    entries = {};
+    for (const std::size_t row : rows)
+    {
+      int n = 0, *column = nullptr;
+      double *value = nullptr;
+      check(result.ExtractGlobalRowView(static_cast<int>(row), n, value, column));
+      for (int e = 0; e < n; ++e)
+        entries.add(row, column[e], value[e]);
+    }
+    entries.compress();
   }
 
   void RowMap::gather(const std::vector<double> &values, std::vector<double> &all) const

@@ -4,6 +4,7 @@
 #include "base/write_file.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/growing_file.h>
 
 #include <boost/crc.hpp>
 
@@ -13,7 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <istream>
 #include <ostream>
 
 namespace taut
@@ -21,61 +22,192 @@ namespace taut
   namespace
   {
     /// First line of the file. The version changes with the stored data.
-    const std::string first_line = "Taut checkpoint, version 12\n";
+    const std::string first_line = "Taut checkpoint, version 13\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
-    std::string checksum(const std::string &bytes)
+    /// What follows are blocks: a line with the number of the body, the length of its data and
+    /// their checksum, and the data. The first block is the checkpoint without bodies, the last one
+    /// is empty.
+    const std::string of_checkpoint = "run", of_end = "end";
+
+    std::string checksum(const std::string &name, const std::string &data)
     {
       boost::crc_32_type crc;
-      crc.process_bytes(bytes.data(), bytes.size());
+      crc.process_bytes(name.data(), name.size());
+      crc.process_bytes(data.data(), data.size());
       char text[16];
-      std::snprintf(text, sizeof text, "%08x\n", crc.checksum());
+      std::snprintf(text, sizeof text, "%08x", crc.checksum());
       return text;
     }
+
+    std::string block(const std::string &name, const std::string &data)
+    {
+      return name + ' ' + std::to_string(data.size()) + ' ' + checksum(name, data) + '\n' + data;
+    }
+
+    /// Reads the blocks of a file behind its first line.
+    class Blocks
+    {
+    public:
+      explicit Blocks(const std::string &path) : file(path, std::ios::binary)
+      {
+        std::error_code error;
+        left = static_cast<std::size_t>(std::filesystem::file_size(path, error));
+        if (error)
+          file.setstate(std::ios::failbit);
+        std::string line(std::min(left, first_line.size()), ' ');
+        file.read(line.data(), static_cast<std::streamsize>(line.size()));
+        start = line;
+        left -= line.size();
+      }
+
+      bool is_open() const { return file.is_open() && !file.bad(); }
+
+      /// The first line, or as much of the file as this has.
+      const std::string &first() const { return start; }
+
+      /// Goes to the next block. False if there is none, or it is longer than the file.
+      bool next()
+      {
+        constexpr std::size_t most = 64; // name, length, checksum
+        std::string line;
+        for (int c; line.size() < most && (c = file.get()) != EOF && c != '\n';)
+          line += static_cast<char>(c);
+        std::istringstream words(line);
+        if (!(words >> own_name >> length >> sum) || line.size() + 1 + length > left)
+          return false;
+        left -= line.size() + 1 + length;
+        return true;
+      }
+      const std::string &name() const { return own_name; }
+
+      /// Its data; skip() or this is called for each block.
+      std::string data()
+      {
+        std::string bytes(length, ' ');
+        file.read(bytes.data(), static_cast<std::streamsize>(length));
+        return bytes;
+      }
+      void skip() { file.seekg(static_cast<std::streamoff>(length), std::ios::cur); }
+
+      bool is_undamaged(const std::string &data) const
+      {
+        return file && checksum(own_name, data) == sum;
+      }
+      bool is_at_end() const { return left == 0; }
+
+    private:
+      std::ifstream file;
+      std::string start, own_name, sum;
+      std::size_t length = 0, left = 0;
+    };
 
     /// Reads a file and returns its error, or nothing.
     std::string problem_of(const std::string &path, Checkpoint &checkpoint)
     {
-      std::ifstream file(path, std::ios::binary);
-      const std::string bytes(std::istreambuf_iterator<char>(file), {});
-      if (!file)
+      const std::string damaged = "is damaged: its checksum is wrong";
+      Blocks blocks(path);
+      if (!blocks.is_open())
         return "cannot be read";
-      if (bytes.compare(0, any_first_line.size(), any_first_line) != 0)
+      if (blocks.first().compare(0, any_first_line.size(), any_first_line) != 0)
         return "is no checkpoint of Taut";
-      if (bytes.compare(0, first_line.size(), first_line) != 0)
+      if (blocks.first() != first_line)
         return "was written by another version of Taut";
-      const std::size_t n_sum = checksum("").size();
-      const std::string sum = bytes.substr(first_line.size(), n_sum),
-                        content = bytes.substr(std::min(bytes.size(), first_line.size() + n_sum));
-      if (sum != checksum(content))
-        return "is damaged: its checksum is wrong";
-      try
+      std::size_t n_bodies = 0;
+      for (bool is_first = true; blocks.next(); is_first = false)
       {
-        unarchive(content, [&](InputArchive &archive) { archive >> checkpoint; });
+        const std::string data = blocks.data();
+        if (!blocks.is_undamaged(data) || is_first != (blocks.name() == of_checkpoint))
+          return damaged;
+        if (blocks.name() == of_end)
+          return blocks.is_at_end() && n_bodies == checkpoint.n_bodies ? "" : damaged;
+        if (!is_first)
+          ++n_bodies;
+        else
+          try
+          {
+            unarchive(data, [&](InputArchive &archive) { archive >> checkpoint; });
+          }
+          catch (const boost::archive::archive_exception &e)
+          {
+            return std::string("cannot be read by this build: ") + e.what();
+          }
       }
-      catch (const boost::archive::archive_exception &e)
-      {
-        return std::string("cannot be read by this build: ") + e.what();
-      }
-      return "";
+      return damaged;
+    }
+
+    /// Between both renames only the old checkpoint exists, which is enough. A damaged one must not
+    /// replace a good one.
+    void put_in_place(const std::string &unfinished, const std::string &folder)
+    {
+      const std::string path = folder + "/" + checkpoint_names[0],
+                        before = folder + "/" + checkpoint_names[1];
+      Checkpoint last;
+      if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
+        throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
+                         "; check that its folder is writable and the disk not full");
+      finish_file(unfinished, path);
     }
   } // namespace
 
-  void write_checkpoint(const Checkpoint &checkpoint, const std::string &folder)
+  void write_checkpoint(const Checkpoint &checkpoint, const std::vector<std::size_t> &numbers,
+                        const BodyData &data, const std::string &folder,
+                        const Communicator &processes)
   {
-    const std::string content = archived([&](OutputArchive &archive) { archive << checkpoint; });
-    const std::string path = folder + "/" + checkpoint_names[0];
-    // Between both renames only the old checkpoint exists, which is enough. A damaged one must not
-    // replace a good one.
-    Checkpoint last;
-    const std::string before = folder + "/" + checkpoint_names[1];
-    if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
-      throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
-                       "; check that its folder is writable and the disk not full");
-    replace_file(path, first_line + checksum(content) + content);
+    std::string path = unfinished_name(folder + "/" + checkpoint_names[0]);
+    processes.broadcast(path);
+    double length = 0.; // as a number that ranks agree on
+    const auto append = [&](const unsigned int rank, const std::function<void(GrowingFile &)> &work)
+    {
+      processes.agree(
+          [&]
+          {
+            if (processes.rank() != rank)
+              return;
+            GrowingFile file;
+            if (length > 0.)
+              file.resume(path, static_cast<std::size_t>(length));
+            else
+              file.create(path);
+            work(file);
+            file.sync();
+            length = static_cast<double>(file.length());
+            file.close();
+          });
+      length = processes.max(length);
+    };
+    try
+    {
+      append(0,
+             [&](GrowingFile &file)
+             {
+               file.append(first_line + block(of_checkpoint, archived([&](OutputArchive &archive)
+                                                                      { archive << checkpoint; })));
+             });
+      for (unsigned int rank = 0; rank < processes.size(); ++rank)
+        append(rank,
+               [&](GrowingFile &file)
+               {
+                 for (std::size_t k = 0; k < numbers.size(); ++k)
+                   file.append(block(std::to_string(numbers[k]), data(k)));
+               });
+      append(0, [&](GrowingFile &file) { file.append(block(of_end, "")); });
+      processes.agree(
+          [&]
+          {
+            if (processes.is_root())
+              put_in_place(path, folder);
+          });
+    }
+    catch (...)
+    {
+      if (processes.is_root())
+        std::remove(path.c_str());
+      throw;
+    }
   }
 
-  std::optional<Checkpoint> read_checkpoint(const std::string &folder, std::ostream &log)
+  std::optional<FoundCheckpoint> read_checkpoint(const std::string &folder, std::ostream &log)
   {
     std::string problems;
     for (const char *const name : checkpoint_names)
@@ -83,13 +215,13 @@ namespace taut
       const std::string path = folder + "/" + name;
       if (!std::filesystem::exists(path))
         continue;
-      Checkpoint checkpoint;
-      const std::string problem = problem_of(path, checkpoint);
+      FoundCheckpoint found{{}, path};
+      const std::string problem = problem_of(path, found.checkpoint);
       if (problem.empty())
       {
         if (!problems.empty())
           log << "Warning: " << problems << "; the one before it is used\n";
-        return checkpoint;
+        return found;
       }
       problems += (problems.empty() ? "'" : "; '") + path + "' " + problem;
     }
@@ -97,5 +229,16 @@ namespace taut
       return {};
     throw UserError("cannot resume: " + problems +
                     ". Run with --overwrite to begin from the start");
+  }
+
+  void read_bodies(const std::string &path, const std::function<bool(std::size_t)> &is_wanted,
+                   const std::function<void(std::size_t, const std::string &)> &take)
+  {
+    Blocks blocks(path);
+    while (blocks.next() && blocks.name() != of_end)
+      if (blocks.name() == of_checkpoint || !is_wanted(std::stoul(blocks.name())))
+        blocks.skip();
+      else
+        take(std::stoul(blocks.name()), blocks.data());
   }
 } // namespace taut

@@ -2,6 +2,10 @@
 #ifndef taut_checkpoint_h
 #define taut_checkpoint_h
 
+#include <taut/base/communicator.h>
+
+#include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <optional>
@@ -10,34 +14,55 @@
 
 namespace taut
 {
-  /// All data to continue a run after a step with the same bits.
+  /// All data to continue a run after a step with the same bits, but those of the bodies, which
+  /// stay in the file.
   struct Checkpoint
   {
     double time = 0.;                           ///< of the step [s]
     std::string build;                          ///< version of the program with its instruction set
     unsigned int n_ranks = 1;                   ///< number of ranks that wrote it
+    std::size_t n_bodies = 0;                   ///< of the system
     std::map<std::string, std::string> entries; ///< of the parameter file, by path
     std::string run;                            ///< data that are equal on all ranks
-    std::vector<std::string> bodies;            ///< data of each body of the system
     std::vector<std::string> observers;         ///< data of each observer
 
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &time &build &n_ranks &entries &run &bodies &observers;
+      archive &time &build &n_ranks &n_bodies &entries &run &observers;
     }
   };
 
   /// Names of the files in the folder of the results: the last checkpoint and the one before it.
   constexpr const char *const checkpoint_names[] = {"checkpoint", "checkpoint.old"};
 
-  /// Writes the checkpoint into the folder. An undamaged last checkpoint becomes the one before.
-  /// Throws UserError if it cannot be written; the one before remains.
-  void write_checkpoint(const Checkpoint &checkpoint, const std::string &folder);
+  /// Data of a body by its index on the rank.
+  using BodyData = std::function<std::string(std::size_t k)>;
+
+  /**
+   * Writes the checkpoint into the folder, and behind it the bodies of one rank after the other, of
+   * which this rank has those with the @p numbers in the system. An undamaged last checkpoint
+   * becomes the one before. Called by all ranks together, which share the folder. Throws UserError
+   * if it cannot be written; the one before remains.
+   */
+  void write_checkpoint(const Checkpoint &checkpoint, const std::vector<std::size_t> &numbers,
+                        const BodyData &data, const std::string &folder,
+                        const Communicator &processes);
+
+  struct FoundCheckpoint
+  {
+    Checkpoint checkpoint;
+    std::string path; ///< of its file
+  };
 
   /// The last checkpoint of the folder, or the one before if that is damaged, with a message in
   /// @p log; none without files. Throws UserError if no file is usable.
-  std::optional<Checkpoint> read_checkpoint(const std::string &folder, std::ostream &log);
+  std::optional<FoundCheckpoint> read_checkpoint(const std::string &folder, std::ostream &log);
+
+  /// Calls @p take with the data of the bodies in an undamaged file that are wanted by their
+  /// numbers.
+  void read_bodies(const std::string &path, const std::function<bool(std::size_t)> &is_wanted,
+                   const std::function<void(std::size_t, const std::string &)> &take);
 } // namespace taut
 
 #endif

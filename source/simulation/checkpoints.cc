@@ -34,9 +34,6 @@ namespace taut
         entries[file_mark + name] = digest(*text);
       return entries;
     }
-
-    /// Data of bodies, by their number in the system.
-    using StoredBodies = std::map<std::size_t, std::string>;
   } // namespace
 
   Checkpoints::Checkpoints(const std::string &folder, const double interval, std::ostream &log,
@@ -52,7 +49,7 @@ namespace taut
   void Checkpoints::find(const Communicator &communicator)
   {
     processes = communicator;
-    std::string text;
+    std::string text, file;
     processes.agree(
         [&]
         {
@@ -60,18 +57,21 @@ namespace taut
             return;
           if (const auto last = read_checkpoint(folder, log))
           {
-            check_origin(*last);
-            text = archived([&](OutputArchive &archive) { archive << *last; });
+            check_origin(last->checkpoint);
+            text = archived([&](OutputArchive &archive) { archive << last->checkpoint; });
+            file = last->path;
           }
         });
     processes.broadcast(text);
+    processes.broadcast(file);
     if (text.empty())
     {
       log << "No checkpoint in " << folder << ": the run begins from the start\n";
       return;
     }
-    auto last = std::make_shared<Checkpoint>();
-    unarchive(text, [&](InputArchive &archive) { archive >> *last; });
+    auto last = std::make_shared<FoundCheckpoint>();
+    last->path = file;
+    unarchive(text, [&](InputArchive &archive) { archive >> last->checkpoint; });
     found = std::move(last);
   }
 
@@ -128,38 +128,25 @@ namespace taut
     stored.entries = entries;
     stored.observers = run->save();
     stored.run = archived([&](OutputArchive &archive) { run->stepped().save(archive); });
-    add_bodies(stored);
-    processes.agree(
-        [&]
-        {
-          if (processes.is_root())
-            write_checkpoint(stored, folder);
-        });
-  }
-
-  /// Adds the vectors of the bodies of all ranks.
-  void Checkpoints::add_bodies(Checkpoint &stored) const
-  {
     const Structure &bodies = run->stepped().bodies();
+    stored.n_bodies = bodies.all_bodies().size();
     State state = run->stepped().state();
-    StoredBodies own;
+    std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      own[bodies.number(k)] = archived(
-          [&](OutputArchive &archive)
-          {
-            for (const BodyVectors *vectors : state.of_bodies())
-              archive << (*vectors)[k];
-            bodies[k].save(archive);
-          });
-    stored.bodies.resize(bodies.all_bodies().size());
-    for (const std::string &text :
-         processes.gather(archived([&](OutputArchive &archive) { archive << own; })))
-    {
-      StoredBodies of_rank;
-      unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
-      for (const auto &[number, body] : of_rank)
-        stored.bodies[number] = body;
-    }
+      numbers.push_back(bodies.number(k));
+    write_checkpoint(
+        stored, numbers,
+        [&](const std::size_t k)
+        {
+          return archived(
+              [&](OutputArchive &archive)
+              {
+                for (const BodyVectors *vectors : state.of_bodies())
+                  archive << (*vectors)[k];
+                bodies[k].save(archive);
+              });
+        },
+        folder, processes);
   }
 
   void Checkpoints::save(OutputArchive &archive)
@@ -176,10 +163,10 @@ namespace taut
   {
     State state;
     processes.agree([&] { state = restored_state(); });
-    unarchive(found->run,
+    unarchive(found->checkpoint.run,
               [&](InputArchive &archive) { run->stepped().load(archive, std::move(state)); });
-    run->resume(found->observers);
-    log << "Resumed after t = " << found->time << " s\n";
+    run->resume(found->checkpoint.observers);
+    log << "Resumed after t = " << found->checkpoint.time << " s\n";
   }
 
   /// State with the stored vectors of the bodies of this rank.
@@ -188,26 +175,42 @@ namespace taut
     Motion &motion = run->stepped();
     const Structure &bodies = motion.bodies();
     const std::size_t n_bodies = bodies.all_bodies().size();
-    if (found->bodies.size() != n_bodies)
-      throw UserError("the run of the checkpoint had " + std::to_string(found->bodies.size()) +
-                      " bodies and this one has " + std::to_string(n_bodies) +
+    if (found->checkpoint.n_bodies != n_bodies)
+      throw UserError("the run of the checkpoint had " +
+                      std::to_string(found->checkpoint.n_bodies) + " bodies and this one has " +
+                      std::to_string(n_bodies) +
                       ": resume it with the same program and the same plugins");
     State state = motion.start().state;
+    std::map<std::size_t, std::size_t> own;
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      unarchive(found->bodies[bodies.number(k)],
-                [&](InputArchive &archive)
-                {
-                  for (BodyVectors *vectors : state.of_bodies())
-                  {
-                    const std::size_t n = (*vectors)[k].size();
-                    archive >> (*vectors)[k];
-                    if ((*vectors)[k].size() != n)
-                      throw UserError("body '" + bodies[k].name() +
-                                      "' had another number of DoFs in the run that is to be "
-                                      "resumed");
-                  }
-                  motion.load_body(k, archive);
-                });
+      own[bodies.number(k)] = k;
+    const std::size_t n_own = own.size();
+    std::size_t n_read = 0;
+    read_bodies(
+        found->path, [&](const std::size_t number) { return own.count(number) > 0; },
+        [&](const std::size_t number, const std::string &data)
+        {
+          ++n_read;
+          const std::size_t k = own[number];
+          unarchive(data,
+                    [&](InputArchive &archive)
+                    {
+                      for (BodyVectors *vectors : state.of_bodies())
+                      {
+                        const std::size_t n = (*vectors)[k].size();
+                        archive >> (*vectors)[k];
+                        if ((*vectors)[k].size() != n)
+                          throw UserError("body '" + bodies[k].name() +
+                                          "' had another number of DoFs in the run that is to be "
+                                          "resumed");
+                      }
+                      motion.load_body(k, archive);
+                    });
+        });
+    if (n_read != n_own)
+      throw UserError("cannot read '" + found->path +
+                      "' on all ranks: the folder of the results has to be on a disk that they "
+                      "share");
     return state;
   }
 } // namespace taut

@@ -45,12 +45,13 @@ namespace verification
     std::string log;
   };
 
-  inline NodeRecord record_nodes(const std::string &scene, const Overrides &overrides,
-                                 const taut::Communicator &processes)
+  /// Of the text of a scene.
+  inline NodeRecord record_nodes_of(const std::string &text, const Overrides &overrides,
+                                    const taut::Communicator &processes)
   {
     NodeRecord result;
     // Each rank has a folder of its own here.
-    Session session(scene_file(scene), overrides + Overrides{"Output/Field interval=0"}, processes);
+    Session session(text, overrides + Overrides{"Output/Field interval=0"}, processes);
     std::vector<std::size_t> n_nodes;
     session.run(
         [&](const taut::StepView &view)
@@ -66,6 +67,13 @@ namespace verification
         });
     result.log = session.log();
     return result;
+  }
+
+  /// Of a scene of prm/.
+  inline NodeRecord record_nodes(const std::string &scene, const Overrides &overrides,
+                                 const taut::Communicator &processes)
+  {
+    return record_nodes_of(scene_file(scene), overrides, processes);
   }
 
   inline std::string ranks_and_comma()

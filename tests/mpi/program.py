@@ -11,7 +11,7 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
 from checks import entries, errors, largest_difference, on_ranks, parse
 
-arguments = parse(__doc__, "program", "mpiexec", "prm")
+arguments = parse(__doc__, "program", "mpiexec", "prm", ranks=(2, "of the scenes; words and errors are those of two ranks"))
 
 # Times of the computer, residuals of rounding, where mpirun has its say.
 VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output|us a step|"
@@ -62,7 +62,7 @@ def check_scene(scene, folder):
     options = [scene, "--overwrite", *entries(*SHORT.get(scene.stem, []))]
     outputs = {}
     # Three ranks once with a moving contact, once with fewer bodies than ranks.
-    several = (2, 3) if scene.stem in ("en50318_2002_250", "oscillator_with_stop") else (2,)
+    several = (arguments.ranks, 3) if scene.stem in ("en50318_2002_250", "oscillator_with_stop") else (arguments.ranks,)
     for ranks in (1, *several):
         results = folder / f"{scene.stem}_{ranks}"
         cuts = [] if ranks == 1 else ["--set", "Partition/Number of substructures=4"]

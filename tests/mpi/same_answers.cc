@@ -322,6 +322,11 @@ TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
                 line(10, step, step < 1e-4 ? 400 : 20, .5), {1, 2, 7, 64, 256});
 }
 
+TEST(Ranks, every_one_of_a_thousand_spans_is_the_same)
+{
+  expect_same("1000 spans, at rest", 1e-3, line(1000, 1e-3, 1, 1.), {64, 1000});
+}
+
 TEST(Ranks, every_step_size_on_a_hundred_spans_is_the_same)
 {
   for (const double step : {1e-5, 1e-3, 1e-1, 10.})

@@ -3,21 +3,25 @@
 // process without cuts.
 #include "nodes.h"
 
+#include <regex>
+
 using namespace verification;
 
 namespace
 {
-  void expect_same_solid(const std::string &scene, const Overrides &overrides)
+  void expect_same_solid(const std::string &title, const std::string &text,
+                         const Overrides &overrides, const std::vector<unsigned int> &numbers)
   {
-    const NodeRecord one = record_nodes(scene, overrides, taut::Communicator());
+    const NodeRecord one = record_nodes_of(
+        text, overrides + Overrides{"Partition/Number of substructures=1"}, taut::Communicator());
     ASSERT_FALSE(one.force.empty());
     ASSERT_FALSE(one.displacement.empty());
-    for (const unsigned int n : {1u, 2u, 7u, 64u})
+    for (const unsigned int n : numbers)
     {
-      const std::string where = scene + ", " + std::to_string(n) + " parts, " + ranks_and_comma();
+      const std::string where = title + ", " + std::to_string(n) + " parts, " + ranks_and_comma();
       SCOPED_TRACE(where);
-      const NodeRecord many = record_nodes(
-          scene, overrides + Overrides{"Partition/Number of substructures=" + std::to_string(n)},
+      const NodeRecord many = record_nodes_of(
+          text, overrides + Overrides{"Partition/Number of substructures=" + std::to_string(n)},
           taut::Communicator(MPI_COMM_WORLD));
       EXPECT_LT(
           figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
@@ -25,6 +29,56 @@ namespace
       EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-7);
       figure(where + "gap", relative_difference(one.gap, many.gap));
     }
+  }
+
+  void expect_same_solid(const std::string &scene, const Overrides &overrides)
+  {
+    expect_same_solid(scene, scene_file(scene), overrides, {1u, 2u, 7u, 64u});
+  }
+
+  /// A cube of so many elements along an edge, which a pressure at one edge lifts from a rigid
+  /// floor elsewhere.
+  std::string cube_on_floor(const unsigned int n)
+  {
+    const std::string number = std::to_string(n);
+    return R"(
+set Generator = network
+set Bodies    = cube
+set Contacts  = floor
+set Gravity   = 0, 0
+subsection Body cube
+  set Type                = solid
+  set Dimension           = 3
+  set Young's modulus     = 1e9
+  set Poisson's ratio     = 0.3
+  set Density             = 7850
+  set Symmetry boundaries = 0, 2
+  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = )" +
+           number + ", " + number + ", " + number + R"( : 0, 0, 0 : 1, 1, 1
+  end
+end
+subsection Contact floor
+  set Slave           = cube: 4
+  set Obstacle        = plane
+  set Point           = 0, 0, 0
+  set Direction       = 0, 0, 1
+  set Search distance = 0.1
+end
+subsection Time
+  set End = 0
+end
+)";
+  }
+
+  /// What the log says of conjugate gradients: iterations and systems.
+  std::string iterations(const NodeRecord &record)
+  {
+    static const std::regex said("(\\d+ iterations?) of conjugate gradients in (\\d+ systems?)");
+    std::smatch parts;
+    return std::regex_search(record.log, parts, said) ? parts.str() : "";
   }
 } // namespace
 
@@ -37,6 +91,32 @@ TEST(Ranks, solids_in_parts_are_the_same)
   expect_same_solid("hertz_cylinder", {"Solver/Interface operator=assembled dense"});
   expect_same_solid("bracket_and_cables", {"Time/End=0.1"});
   expect_same_solid("block_impact", {"Time/End=0.1"});
+}
+
+// Claim: so are blocks whose meshes do not match, tied by mortar constraints across ranks, and a
+// solid in space on a floor, which takes the same iterations on any number of ranks. Expected: as
+// above.
+TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
+{
+  expect_same_solid("block_on_block", {});
+  const Overrides fine = {"Network/Body lower/Mesh/Arguments=20, 12 : 0, 0 : 1, 0.5",
+                          "Network/Body upper/Mesh/Arguments=28, 12 : 0, 0.5 : 1, 1",
+                          "Solver/Interface operator=matrix-free"};
+  expect_same_solid("block_on_block", fine);
+  const std::string cube = cube_on_floor(10);
+  expect_same_solid("cube_on_floor", cube, {}, {27u});
+  const Overrides parts = {"Partition/Number of substructures=27",
+                           "Solver/Interface operator=matrix-free"};
+  const std::string here =
+      iterations(record_nodes_of(cube, parts, taut::Communicator(MPI_COMM_WORLD)));
+  EXPECT_FALSE(here.empty());
+  EXPECT_EQ(here, iterations(record_nodes_of(cube, parts, taut::Communicator())));
+}
+
+// Claim: so is a cube in 512 parts. Expected: as above.
+TEST(Ranks, every_part_of_a_large_cube_is_the_same)
+{
+  expect_same_solid("cube_on_floor", cube_on_floor(24), {}, {512u});
 }
 
 namespace

@@ -3,6 +3,7 @@
 #define taut_row_map_h
 
 #include <taut/base/communicator.h>
+#include <taut/base/sparse_cholesky.h>
 
 #include <Epetra_Comm.h>
 #include <Epetra_Map.h>
@@ -47,6 +48,13 @@ namespace taut
 
     /// Sums over the ranks that hold a row, on the owned rows.
     void add_shares(const double *on_held, double *sums) const;
+
+    /// Position of an owned row among the held ones.
+    std::size_t position_of_owned(const std::size_t p) const { return own_held[p]; }
+
+    /// Of entries of a matrix over the rows, by their numbers, each rank has shares of those in
+    /// held rows, and gets their sums over the ranks, ordered by rows and columns.
+    void sum_entries(MatrixEntries &entries, std::size_t n_columns) const;
 
     /// Between owned rows, and all rows on all ranks.
     void gather(const std::vector<double> &values, std::vector<double> &all) const;

@@ -14,6 +14,7 @@ namespace taut
   class ObservedRun;
   class Motion;
   struct Checkpoint;
+  struct FoundCheckpoint;
 
   /// Stores a run at intervals, so that a killed run continues from there with the same bits. Each
   /// observer stores its own part, see Observer::save(). To continue, call find() before
@@ -48,7 +49,6 @@ namespace taut
 
   private:
     void check_origin(const Checkpoint &stored) const;
-    void add_bodies(Checkpoint &stored) const;
     State restored_state() const;
 
     const std::string folder;
@@ -57,8 +57,8 @@ namespace taut
     const std::map<std::string, std::string> entries;
     Communicator processes;
     ObservedRun *run = nullptr;
-    std::shared_ptr<const Checkpoint> found; ///< checkpoint to continue from
-    double next;                             ///< [s]
+    std::shared_ptr<const FoundCheckpoint> found; ///< checkpoint to continue from
+    double next;                                  ///< [s]
   };
 } // namespace taut
 
