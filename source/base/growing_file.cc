@@ -44,6 +44,19 @@ namespace taut
     n_bytes = length;
   }
 
+  void GrowingFile::go_on(const std::string &name, const std::size_t length)
+  {
+    open(name, 0);
+    struct stat status = {};
+    if (::fstat(descriptor, &status) != 0 || ::lseek(descriptor, 0, SEEK_END) < 0)
+      fail(errno);
+    if (static_cast<std::size_t>(status.st_size) != length)
+      throw NotWritten("cannot write '" + name +
+                       "': it is not as another rank left it; put the results on a disk that all "
+                       "ranks share");
+    n_bytes = length;
+  }
+
   void GrowingFile::append(const std::string &bytes)
   {
     if (write(bytes))

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -84,7 +85,8 @@ namespace taut
   {
     char host[256] = "";
     gethostname(host, sizeof(host) - 1);
-    return to_text(path, ".", host, ".", getpid(), ".tmp");
+    static std::atomic<unsigned long> n_calls{0};
+    return to_text(path, ".", host, ".", getpid(), ".", ++n_calls, ".tmp");
   }
 
   void finish_file(const std::string &unfinished, const std::string &path)

@@ -15,7 +15,8 @@ namespace taut
   /// disk.
   void replace_file(const std::string &path, const std::string &bytes);
 
-  /// A name beside @p path that no other process takes, on any machine of the disk.
+  /// A name beside @p path that no other process takes, on any machine of the disk; another one in
+  /// each call.
   std::string unfinished_name(const std::string &path);
 
   /// Puts a file of that name, whose bytes are on the disk, in the place of @p path, as

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "interface/check_constraint.h"
 #include "interface/distributed_rows.h"
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/interface/constraints.h>
 
@@ -9,8 +10,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace taut
 {
@@ -423,17 +424,16 @@ namespace taut
       found[number(i)] = {constraints[i].name, constraints[i].origin};
     if (shared_rows)
     {
-      std::string own;
+      std::map<std::size_t, std::pair<std::string, std::string>> own;
       for (const auto &[number, label] : found)
         if (is_own(index(number)))
-          own += std::to_string(number) + '\n' + label.name + '\n' + label.origin + '\n';
-      for (const std::string &text : structure.communicator().gather(own))
+          own[number] = {label.name, label.origin};
+      for (const std::string &text : structure.communicator().gather(
+               archived([&](OutputArchive &archive) { archive << own; })))
       {
-        std::istringstream lines(text);
-        Label label;
-        for (std::string number; std::getline(lines, number) && std::getline(lines, label.name) &&
-                                 std::getline(lines, label.origin);)
-          found[std::stoul(number)] = label;
+        unarchive(text, [&](InputArchive &archive) { archive >> own; });
+        for (const auto &[number, label] : own)
+          found[number] = {label.first, label.second};
       }
     }
     std::vector<Label> result;

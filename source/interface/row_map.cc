@@ -175,8 +175,17 @@ namespace taut
     const Epetra_Map columns(static_cast<int>(n_columns), 0, *epetra);
     Epetra_CrsMatrix shares(Copy, *of_held, 0), sums(Copy, *owned_map, 0),
         result(Copy, *of_held, 0);
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      check(shares.InsertGlobalValues(entries.row[e], 1, &entries.value[e], &entries.column[e]));
+    processes.agree(
+        [&]
+        {
+          for (std::size_t e = 0, end = 0; e < entries.size(); e = end)
+          {
+            while (end < entries.size() && entries.row[end] == entries.row[e])
+              ++end;
+            check(shares.InsertGlobalValues(entries.row[e], static_cast<int>(end - e),
+                                            &entries.value[e], &entries.column[e]));
+          }
+        });
     check(shares.FillComplete(columns, *owned_map));
     check(sums.Export(shares, Epetra_Export(*of_held, *owned_map), Add));
     check(sums.FillComplete(columns, *owned_map));

@@ -142,11 +142,29 @@ namespace taut
     }
 
     /// The static state of a scene.
+    /// Long wires are cut: the responses of a whole one are as long as it is, and a local one then
+    /// has no digits beside them, so that iterations grow with the length of the wire.
+    Partition in_pieces(const Scene &scene)
+    {
+      constexpr std::size_t most_elements = 500;
+      Partition result = whole(scene);
+      for (std::size_t w = 0; w < scene.wires.size(); ++w)
+      {
+        const std::size_t n_elements = grid(scene, w).size() - 1,
+                          n_pieces = (n_elements + most_elements - 1) / most_elements;
+        result.wires[w].clear();
+        for (std::size_t p = 0; p < n_pieces; ++p)
+          result.wires[w].push_back({p * n_elements / n_pieces, static_cast<unsigned int>(p)});
+        result.n_parts = std::max(result.n_parts, static_cast<unsigned int>(n_pieces));
+      }
+      return result;
+    }
+
     class AtRest
     {
     public:
       AtRest(const Scene &scene, const SolverParameters &parameters)
-          : structure(scene), constraints(scene_constraints(scene, structure)),
+          : structure(scene, in_pieces(scene)), constraints(scene_constraints(scene, structure)),
             state(static_equilibrium(structure, constraints, parameters, 0.))
       {
       }

@@ -2,29 +2,38 @@
 #include "output/reactions.h"
 
 #include <map>
+#include <unordered_map>
+#include <utility>
 
 namespace taut
 {
   namespace
   {
-    /// Force of a matrix along a form, form . (M x), as a form on x.
-    LinearForm times(const LinearForm &form, const SymmetricMatrix &matrix)
+    /// Forces of a matrix along forms, form . (M x), as forms on x: into @p products, by one visit.
+    void add_products(const SymmetricMatrix &matrix, const std::vector<const LinearForm *> &forms,
+                      const std::vector<LinearForm *> &products)
     {
-      std::map<unsigned int, double> weights, result;
-      for (std::size_t i = 0; i < form.index.size(); ++i)
-        weights[form.index[i]] += form.value[i];
+      std::unordered_multimap<unsigned int, std::pair<std::size_t, double>> weights;
+      for (std::size_t p = 0; p < forms.size(); ++p)
+        for (std::size_t i = 0; i < forms[p]->index.size(); ++i)
+          weights.emplace(forms[p]->index[i], std::make_pair(p, forms[p]->value[i]));
+      std::vector<std::map<unsigned int, double>> results(forms.size());
+      const auto add = [&](const unsigned int i, const unsigned int j, const double value)
+      {
+        const auto [begin, end] = weights.equal_range(i);
+        for (auto w = begin; w != end; ++w)
+          results[w->second.first][j] += w->second.second * value;
+      };
       matrix.visit(
           [&](const unsigned int i, const unsigned int j, const double value)
           {
-            if (const auto w = weights.find(i); w != weights.end())
-              result[j] += w->second * value;
-            if (const auto w = weights.find(j); i != j && w != weights.end())
-              result[i] += w->second * value;
+            add(i, j, value);
+            if (i != j)
+              add(j, i, value);
           });
-      LinearForm product;
-      for (const auto &[dof, value] : result)
-        product.add(dof, value);
-      return product;
+      for (std::size_t p = 0; p < forms.size(); ++p)
+        for (const auto &[dof, value] : results[p])
+          products[p]->add(dof, value);
     }
 
     /// Removes zero shape functions: at a node, all but one.
@@ -70,14 +79,24 @@ namespace taut
       {
         place.body = terms[0].substructure;
         place.form = without_zeros(terms[0].form);
-        if (place.fixed)
-        {
-          place.mass = times(place.form, structure[place.body].mass());
-          for (const unsigned int dof : place.form.index)
+        for (const unsigned int dof : place.form.index)
+          if (place.fixed)
             is_held[place.body][dof] = 1;
-        }
       }
       places.push_back(std::move(place));
+    }
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::vector<const LinearForm *> forms;
+      std::vector<LinearForm *> products;
+      for (Place &place : places)
+        if (place.is_here && place.fixed && place.body == k)
+        {
+          forms.push_back(&place.form);
+          products.push_back(&place.mass);
+        }
+      if (!forms.empty())
+        add_products(structure[k].mass(), forms, products);
     }
     values.assign(places.size(), 0.);
   }

@@ -102,7 +102,8 @@ namespace taut
       for (Span &span : spanned.spans)
       {
         std::vector<double> places = {span.from, span.to};
-        for (std::size_t i = 1; i < nodes.size(); ++i)
+        const auto begin = std::upper_bound(nodes.begin() + 1, nodes.end(), span.from);
+        for (std::size_t i = begin - nodes.begin(); i < nodes.size() && nodes[i - 1] < span.to; ++i)
           for (unsigned int k = 0; k < n_places; ++k)
             if (const double s = nodes[i - 1] + (nodes[i] - nodes[i - 1]) * k / n_places;
                 s > span.from && s < span.to)

@@ -53,15 +53,16 @@ namespace taut
       {
         std::error_code error;
         left = static_cast<std::size_t>(std::filesystem::file_size(path, error));
+        is_a_file = !error;
         if (error)
-          file.setstate(std::ios::failbit);
+          left = 0;
         std::string line(std::min(left, first_line.size()), ' ');
         file.read(line.data(), static_cast<std::streamsize>(line.size()));
         start = line;
         left -= line.size();
       }
 
-      bool is_open() const { return file.is_open() && !file.bad(); }
+      bool is_open() const { return file.is_open() && is_a_file; }
 
       /// The first line, or as much of the file as this has.
       const std::string &first() const { return start; }
@@ -73,13 +74,15 @@ namespace taut
         std::string line;
         for (int c; line.size() < most && (c = file.get()) != EOF && c != '\n';)
           line += static_cast<char>(c);
+        left -= std::min(left, line.size() + 1);
         std::istringstream words(line);
-        if (!(words >> own_name >> length >> sum) || line.size() + 1 + length > left)
+        if (!(words >> own_name >> length >> sum) || length > left)
           return false;
-        left -= line.size() + 1 + length;
+        left -= length;
         return true;
       }
       const std::string &name() const { return own_name; }
+      const std::string &stored_sum() const { return sum; }
 
       /// Its data; skip() or this is called for each block.
       std::string data()
@@ -100,10 +103,11 @@ namespace taut
       std::ifstream file;
       std::string start, own_name, sum;
       std::size_t length = 0, left = 0;
+      bool is_a_file = false;
     };
 
-    /// Reads a file and returns its error, or nothing.
-    std::string problem_of(const std::string &path, Checkpoint &checkpoint)
+    /// Reads a file and returns its error, or nothing. @p digest: of the first block.
+    std::string problem_of(const std::string &path, Checkpoint &checkpoint, std::string &digest)
     {
       const std::string damaged = "is damaged: its checksum is wrong";
       Blocks blocks(path);
@@ -122,16 +126,19 @@ namespace taut
         if (blocks.name() == of_end)
           return blocks.is_at_end() && n_bodies == checkpoint.n_bodies ? "" : damaged;
         if (!is_first)
+        {
           ++n_bodies;
-        else
-          try
-          {
-            unarchive(data, [&](InputArchive &archive) { archive >> checkpoint; });
-          }
-          catch (const boost::archive::archive_exception &e)
-          {
-            return std::string("cannot be read by this build: ") + e.what();
-          }
+          continue;
+        }
+        digest = blocks.stored_sum();
+        try
+        {
+          unarchive(data, [&](InputArchive &archive) { archive >> checkpoint; });
+        }
+        catch (const boost::archive::archive_exception &e)
+        {
+          return std::string("cannot be read by this build: ") + e.what();
+        }
       }
       return damaged;
     }
@@ -143,7 +150,8 @@ namespace taut
       const std::string path = folder + "/" + checkpoint_names[0],
                         before = folder + "/" + checkpoint_names[1];
       Checkpoint last;
-      if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
+      std::string digest;
+      if (problem_of(path, last, digest).empty() && std::rename(path.c_str(), before.c_str()) != 0)
         throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
                          "; check that its folder is writable and the disk not full");
       finish_file(unfinished, path);
@@ -166,7 +174,7 @@ namespace taut
               return;
             GrowingFile file;
             if (length > 0.)
-              file.resume(path, static_cast<std::size_t>(length));
+              file.go_on(path, static_cast<std::size_t>(length));
             else
               file.create(path);
             work(file);
@@ -215,8 +223,8 @@ namespace taut
       const std::string path = folder + "/" + name;
       if (!std::filesystem::exists(path))
         continue;
-      FoundCheckpoint found{{}, path};
-      const std::string problem = problem_of(path, found.checkpoint);
+      FoundCheckpoint found{{}, path, ""};
+      const std::string problem = problem_of(path, found.checkpoint, found.digest);
       if (problem.empty())
       {
         if (!problems.empty())
@@ -231,14 +239,28 @@ namespace taut
                     ". Run with --overwrite to begin from the start");
   }
 
-  void read_bodies(const std::string &path, const std::function<bool(std::size_t)> &is_wanted,
+  void read_bodies(const FoundCheckpoint &found, const std::function<bool(std::size_t)> &is_wanted,
                    const std::function<void(std::size_t, const std::string &)> &take)
   {
-    Blocks blocks(path);
-    while (blocks.next() && blocks.name() != of_end)
-      if (blocks.name() == of_checkpoint || !is_wanted(std::stoul(blocks.name())))
-        blocks.skip();
+    const auto require = [&](const bool is_right)
+    {
+      if (!is_right)
+        throw UserError("'" + found.path +
+                        "' is not the same file on all ranks: put the results on a disk that they "
+                        "share");
+    };
+    Blocks blocks(found.path);
+    require(blocks.is_open() && blocks.next() && blocks.name() == of_checkpoint &&
+            blocks.stored_sum() == found.digest);
+    for (blocks.skip(); blocks.next() && blocks.name() != of_end;)
+      if (const std::size_t number = std::stoul(blocks.name()); is_wanted(number))
+      {
+        const std::string data = blocks.data();
+        require(blocks.is_undamaged(data));
+        take(number, data);
+      }
       else
-        take(std::stoul(blocks.name()), blocks.data());
+        blocks.skip();
+    require(blocks.name() == of_end);
   }
 } // namespace taut

@@ -52,16 +52,17 @@ namespace taut
   struct FoundCheckpoint
   {
     Checkpoint checkpoint;
-    std::string path; ///< of its file
+    std::string path;   ///< of its file
+    std::string digest; ///< of the checkpoint, as the file has it
   };
 
   /// The last checkpoint of the folder, or the one before if that is damaged, with a message in
   /// @p log; none without files. Throws UserError if no file is usable.
   std::optional<FoundCheckpoint> read_checkpoint(const std::string &folder, std::ostream &log);
 
-  /// Calls @p take with the data of the bodies in an undamaged file that are wanted by their
-  /// numbers.
-  void read_bodies(const std::string &path, const std::function<bool(std::size_t)> &is_wanted,
+  /// Calls @p take with the data of the bodies that are wanted by their numbers. Throws UserError
+  /// if the file has changed, or is another one on this rank.
+  void read_bodies(const FoundCheckpoint &found, const std::function<bool(std::size_t)> &is_wanted,
                    const std::function<void(std::size_t, const std::string &)> &take);
 } // namespace taut
 

@@ -49,7 +49,7 @@ namespace taut
   void Checkpoints::find(const Communicator &communicator)
   {
     processes = communicator;
-    std::string text, file;
+    std::string text, file, digest;
     processes.agree(
         [&]
         {
@@ -60,10 +60,12 @@ namespace taut
             check_origin(last->checkpoint);
             text = archived([&](OutputArchive &archive) { archive << last->checkpoint; });
             file = last->path;
+            digest = last->digest;
           }
         });
     processes.broadcast(text);
     processes.broadcast(file);
+    processes.broadcast(digest);
     if (text.empty())
     {
       log << "No checkpoint in " << folder << ": the run begins from the start\n";
@@ -71,6 +73,7 @@ namespace taut
     }
     auto last = std::make_shared<FoundCheckpoint>();
     last->path = file;
+    last->digest = digest;
     unarchive(text, [&](InputArchive &archive) { archive >> last->checkpoint; });
     found = std::move(last);
   }
@@ -184,13 +187,10 @@ namespace taut
     std::map<std::size_t, std::size_t> own;
     for (std::size_t k = 0; k < bodies.size(); ++k)
       own[bodies.number(k)] = k;
-    const std::size_t n_own = own.size();
-    std::size_t n_read = 0;
     read_bodies(
-        found->path, [&](const std::size_t number) { return own.count(number) > 0; },
+        *found, [&](const std::size_t number) { return own.count(number) > 0; },
         [&](const std::size_t number, const std::string &data)
         {
-          ++n_read;
           const std::size_t k = own[number];
           unarchive(data,
                     [&](InputArchive &archive)
@@ -207,10 +207,6 @@ namespace taut
                       motion.load_body(k, archive);
                     });
         });
-    if (n_read != n_own)
-      throw UserError("cannot read '" + found->path +
-                      "' on all ranks: the folder of the results has to be on a disk that they "
-                      "share");
     return state;
   }
 } // namespace taut

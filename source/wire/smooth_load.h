@@ -12,7 +12,7 @@
 namespace taut
 {
   /**
-   * A smooth force per length q(s, t) as polynomials on panels of 4 to 96 elements. In each step
+   * A smooth force per length q(s, t) as polynomials on panels of 4 to 192 elements. In each step
    * the formula is evaluated at the Chebyshev points of the panels, and compared with the
    * polynomials at some further places, which change from step to step. A panel where they differ
    * is left to the caller.

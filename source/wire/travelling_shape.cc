@@ -199,10 +199,18 @@ namespace taut
 
   TravellingShape::Walk::Walk(const TravellingShape &shape, const double t) : shape(shape)
   {
-    const double a = shape.shape.a(0., t), stretch = shape.a / a;
-    start = stretch * shape.first + (shape.b - shape.shape.b(0., t)) / a;
-    width = stretch * shape.width;
-    per_length = 1. / width;
+    try
+    {
+      const double a = shape.shape.a(0., t), stretch = shape.a / a;
+      start = stretch * shape.first + (shape.b - shape.shape.b(0., t)) / a;
+      width = stretch * shape.width;
+      per_length = 1. / width;
+    }
+    catch (const UserError &)
+    {
+      // The whole formula may have a value where the way of the shape has none.
+      start = width = per_length = 0.;
+    }
   }
 
   bool TravellingShape::Walk::go_to(const double s)

@@ -20,9 +20,9 @@ namespace taut
       {
         if (!owns(s))
           continue;
-        const auto node = std::min_element(nodes.begin(), nodes.end(),
-                                           [s](const double p, const double q)
-                                           { return std::fabs(p - s) < std::fabs(q - s); });
+        auto node = std::lower_bound(nodes.begin(), nodes.end(), s); // the nearest one
+        if (node == nodes.end() || (node != nodes.begin() && s - node[-1] <= *node - s))
+          --node;
         const unsigned int dof = dofs_per_node * (node - nodes.begin()) + offset;
         if (support.fixed)
         {

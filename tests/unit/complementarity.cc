@@ -5,6 +5,7 @@
 
 #include "complementarity/energy_ordered.h"
 #include "complementarity/solver.h"
+#include "complementarity/whole_problem.h"
 
 #include <new>
 #include <type_traits>
@@ -822,6 +823,47 @@ namespace
       EXPECT_GE(F.n_solves, 5u);
       expect_near(solution.multiplier, {.5, .5}, 1e-8);
       expect_near(solution.gap, {0., 0.});
+    }
+  }
+
+  /// Rows 0 and 1 of three, all of which another rank has, too. It adds what it knows of them.
+  class FirstTwoRows : public SharedRows
+  {
+  public:
+    explicit FirstTwoRows(const double of_third) : of_third(of_third) {}
+
+    std::size_t n_of_all() const override { return 3; }
+    std::size_t size() const override { return 2; }
+    std::size_t number(const std::size_t i) const override { return i; }
+    std::size_t index(const std::size_t number) const override
+    {
+      return number < 2 ? number : elsewhere;
+    }
+    bool is_own(std::size_t) const override { return true; }
+    bool is_alone(std::size_t) const override { return false; }
+    double max(const double value) const override { return value; }
+    void max(Vector &) const override {}
+    void sum(Vector &values) const override { values[2] += of_third; }
+    void sum_rows(std::initializer_list<Vector *>) const override {}
+
+  private:
+    const double of_third;
+  };
+
+  // Claim: rows of other ranks keep their cones in a problem with all rows. Expected: a row of
+  // which no rank says that it is free, or may open, takes no part.
+  TEST(complementarity, gathered_rows_keep_their_cones)
+  {
+    MixedComplementarityProblem own = problem({1, 0}, {-1., -1.});
+    for (const auto &[of_third, cone] : {std::pair(0., Cone::zero()), std::pair(1., Cone::free())})
+    {
+      const FirstTwoRows rows(of_third);
+      own.shared = &rows;
+      const MixedComplementarityProblem all = whole_problem(own);
+      ASSERT_EQ(all.cones.size(), 3u);
+      EXPECT_TRUE(all.cones[0] == own.cones[0]);
+      EXPECT_TRUE(all.cones[1] == own.cones[1]);
+      EXPECT_TRUE(all.cones[2] == cone);
     }
   }
 } // namespace

@@ -17,11 +17,11 @@ namespace
 {
   constexpr double length = 21., element = .7, bound = 1e-6;
 
-  taut::Wire wire_of(const std::string &kind)
+  taut::Wire wire_of(const std::string &kind, const double own_length = length)
   {
     taut::Wire wire;
     wire.name = "wire";
-    wire.b = {length, 0.};
+    wire.b = {own_length, 0.};
     wire.mass_per_length = 1.;
     wire.tension = 500.;
     wire.element_size = element;
@@ -44,7 +44,8 @@ namespace
     std::unique_ptr<taut::Substructure> body;
     std::vector<double> translation, rotation, P;
 
-    LoadedWire(const std::string &kind, const std::string &formula, const bool is_moment = false)
+    LoadedWire(const std::string &kind, const std::string &formula, const bool is_moment = false,
+               const double own_length = length)
     {
       taut::Load load;
       load.name = "load";
@@ -53,7 +54,8 @@ namespace
       load.rotational = is_moment;
       if (is_moment)
         load.direction = {0., 0., 1.};
-      body = taut::make_wire(wire_of(kind), taut::WireMotion::transverse, {}, {}, {load});
+      body =
+          taut::make_wire(wire_of(kind, own_length), taut::WireMotion::transverse, {}, {}, {load});
       body->initial_state(translation, rotation);
     }
     double force(const double t = 0.) { return work(t, translation); }
@@ -85,12 +87,13 @@ namespace
 
   /// The rule of four Gauss points on each element.
   std::vector<double> by_gauss_points(const taut::Substructure &body, const taut::Wire &wire,
-                                      const taut::Expression &q, const double t)
+                                      const taut::Expression &q, const double t,
+                                      const unsigned int n_points = 4)
   {
     taut::Scene scene;
     scene.wires = {wire};
     const std::vector<double> nodes = taut::grid(scene, 0);
-    const dealii::QGauss<1> rule(4);
+    const dealii::QGauss<1> rule(n_points);
     std::vector<double> P(body.n_dofs(), 0.);
     for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
       for (unsigned int k = 0; k < rule.size(); ++k)
@@ -317,6 +320,67 @@ TEST(DistributedLoads, smooth_ones_that_mix_place_and_time_are_those_of_gauss_po
                 bound);
       EXPECT_TRUE(difference > 0.) << "panels are not used";
     }
+}
+
+// Waves of many elements to waves shorter than one, on a wire with the longest panels: by panels as
+// long as the Gauss points of the elements integrate them, and by elements then. Expected: the rule
+// of forty Gauss points, over the largest force that the load could have on an element; moments up
+// to the first one to 1e-6, those with the cubic shapes of beams to 2e-5.
+TEST(DistributedLoads, smooth_waves_of_any_length_are_those_of_a_fine_rule)
+{
+  constexpr unsigned int n_elements = 400, n_points = 40;
+  const double own_length = n_elements * element;
+  for (const auto &[kind, accepted] :
+       {std::pair<std::string, double>("string 1", bound), {"beam", 20. * bound}})
+    for (const double waves : {.02, .05, .1, .15, .2, .25, .3, .35, .4, .5, .7, 1., 1.5, 2.3})
+    {
+      const std::string formula =
+          "sin(" + number(2. * M_PI * waves / element) + "*sqrt(s^2+40)-3*t)";
+      LoadedWire wire(kind, formula, false, own_length);
+      const taut::Wire own = wire_of(kind, own_length);
+      const taut::Expression q(formula, "load");
+      double difference = 0.;
+      for (const double t : {0., .31, 1.7})
+      {
+        wire.force(t);
+        raise(difference, verification::largest_difference(
+                              wire.P, by_gauss_points(*wire.body, own, q, t, n_points)));
+      }
+      EXPECT_LE(figure("smooth load, " + number(waves) + " waves in an element, " + kind,
+                       difference / element),
+                accepted);
+    }
+}
+
+// A pulse inside of an element under a smooth load that mixes s and t, at a place between the Gauss
+// points. Expected: a rule of 300 Gauss points, over the largest force on an element.
+TEST(DistributedLoads, pulses_inside_of_an_element_are_seen_under_smooth_loads)
+{
+  constexpr unsigned int n_points = 300;
+  for (const double place : {10.3, 10.36, 10.43, 10.5, 10.57, 10.64})
+    for (const std::string moves : {"0", ".01*t*s"})
+    {
+      const std::string formula =
+          "(1+.1*sin(s*s*t/1000))*(1+5*exp(-((s-" + number(place) + "-" + moves + ")/.08)^8))";
+      LoadedWire wire("string 1", formula, false, 400. * element);
+      const taut::Wire own = wire_of("string 1", 400. * element);
+      const taut::Expression q(formula, "load");
+      for (const double t : {0., .4, 1.3})
+      {
+        wire.force(t);
+        const double difference = verification::largest_difference(
+            wire.P, by_gauss_points(*wire.body, own, q, t, n_points));
+        EXPECT_LE(difference / element, 6. * bound) << formula << ", t = " << t;
+      }
+    }
+}
+
+// A shape whose way has no value at a moment at which the load has one.
+TEST(DistributedLoads, ways_without_a_value_leave_the_load_as_it_is)
+{
+  LoadedWire wire("string 1", "exp(-((s-10)/(1-t))^2)");
+  EXPECT_NEAR(wire.force(.5), .5 * std::sqrt(M_PI), 1e-6);
+  EXPECT_NEAR(wire.force(1.), 0., 1e-12);
 }
 
 // The same formula with a factor of 1 that is no function of a sum a(t)*s + b(t) is integrated by

@@ -28,6 +28,9 @@ namespace taut
     /// that a run cannot go on there.
     void resume(const std::string &name, std::size_t length);
 
+    /// Opens a file that another process left with this length.
+    void go_on(const std::string &name, std::size_t length);
+
     void append(const std::string &bytes);
 
     /// Inserts @p bytes before @p tail, the end of the file.
