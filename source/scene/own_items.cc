@@ -91,6 +91,9 @@ namespace taut
       const double value = parse_number(text, path);
       if (!(value >= 0.))
         throw EntryError(path, "it must not be negative");
+      const std::string name = entry.name;
+      if (value == 0. && (name == "Mass per length" || (name == "Tension" && !result.is_rail)))
+        throw EntryError(path, "it must be positive");
       entry.of(result) = value;
     }
     if (is_new_rail)

@@ -199,7 +199,18 @@ def check_bad(folder):
     def cut(path):
         path.write_bytes(path.read_bytes()[:-100])
 
-    for name, damage, message in (("flipped", flip, "damaged: its checksum is wrong"), ("cut", cut, "damaged"),
+    def in_its_place(path):
+        path.unlink()
+        path.mkdir()
+
+    def lengthen(path):
+        """The length of a block as nobody writes it."""
+        line, _, rest = path.read_bytes().partition(b"\n")
+        block, _, data = rest.partition(b"\n")
+        name, _, checksum = block.split(b" ")
+        path.write_bytes(b"\n".join((line, b" ".join((name, b"18446744073709551600", checksum)), data)))
+
+    for name, damage, message in (("lengthened", lengthen, "damaged"), ("flipped", flip, "damaged: its checksum is wrong"), ("cut", cut, "damaged"),
                                   ("empty", lambda p: p.write_bytes(b""), "is no checkpoint of Taut"),
                                   ("foreign", lambda p: p.write_text("something else\n"), "is no checkpoint of Taut"),
                                   ("older", lambda p: p.write_text("Taut checkpoint, version 0\nx"), "another version")):
@@ -215,6 +226,12 @@ def check_bad(folder):
         expect(f"{name}, both: one error", result.returncode == 1 and len(result.stderr.splitlines()) == 1 and
                result.stderr.count(message) == 2 and "--overwrite" in result.stderr, result.stderr)
         expect(f"{name}, both: nothing is lost", contents(own) == before)
+
+    own, results = changed("folder")
+    in_its_place(results / "checkpoint")
+    result = run(own, [*scene, "--resume"])
+    expect("a folder in its place: the one before is used", "the one before it is used" in result.stdout and
+           "cannot be read" in result.stdout, result.stdout + result.stderr)
 
     own, results = changed("entry")
     before = contents(own)

@@ -92,5 +92,8 @@ TEST(TensionLengths, a_rail_beside_wires_needs_its_own_numbers)
   for (const std::string entry : {"Mass per length", "Tension", "Bending stiffness"})
     EXPECT_TRUE(has(error("Contact wire/" + entry + "="), "has its own")) << entry;
   EXPECT_TRUE(has(error("Supports/Arm mass=-1"), "must not be negative"));
+  const std::string massless = error("Contact wire/Mass per length=0");
+  EXPECT_TRUE(has(massless, "must be positive")) << massless;
+  EXPECT_TRUE(has(massless, "Tension length rail/Contact wire/Mass per length")) << massless;
   EXPECT_TRUE(has(error("Supports/Arm mass=two"), "'two' is not a finite number"));
 }
