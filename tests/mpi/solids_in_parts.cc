@@ -98,11 +98,11 @@ TEST(Ranks, solids_in_parts_are_the_same)
 // above.
 TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
 {
-  expect_same_solid("block_on_block", {});
-  const Overrides fine = {"Network/Body lower/Mesh/Arguments=20, 12 : 0, 0 : 1, 0.5",
-                          "Network/Body upper/Mesh/Arguments=28, 12 : 0, 0.5 : 1, 1",
+  expect_same_solid("block_on_block", scene_file("block_on_block"), {}, {2u, 7u});
+  const Overrides fine = {"Body lower/Mesh/Arguments=20, 12 : 0, 0 : 1, 0.5",
+                          "Body upper/Mesh/Arguments=28, 12 : 0, 0.5 : 1, 1",
                           "Solver/Interface operator=matrix-free"};
-  expect_same_solid("block_on_block", fine);
+  expect_same_solid("block_on_block", scene_file("block_on_block"), fine, {64u});
   const std::string cube = cube_on_floor(10);
   expect_same_solid("cube_on_floor", cube, {}, {27u});
   const Overrides parts = {"Partition/Number of substructures=27",
@@ -138,6 +138,14 @@ namespace
           const taut::Constraints &rows = view.constraints;
           result = {0., static_cast<double>(rows.size()), static_cast<double>(rows.n_of_all()),
                     static_cast<double>(rows.common_rows().size())};
+          // All ranks name the first cut and the last link, whoever has them.
+          const std::vector<std::size_t> ends = {0, rows.n_of_all() - 1};
+          EXPECT_EQ(rows.labels(ends).size(), ends.size());
+          const std::string own = rows.names(ends);
+          std::string of_root = own;
+          taut::Communicator(MPI_COMM_WORLD).broadcast(of_root);
+          EXPECT_EQ(own, of_root);
+          EXPECT_FALSE(has(own, "''")) << own;
           for (std::size_t i = 0; i < rows.size(); ++i)
           {
             result.own += rows.is_own(i);
@@ -163,7 +171,7 @@ TEST(Ranks, cuts_live_with_their_bodies)
                                            "Time/Allow unsuitable scheme=true"})})
   {
     SCOPED_TRACE(scene);
-    expect_same_solid(scene, matrix_free + more);
+    expect_same_solid(scene, scene_file(scene), matrix_free + more, {7u, 64u});
     const RowCounts rows =
         row_counts(scene, matrix_free + more + Overrides{"Partition/Number of substructures=16"});
     EXPECT_EQ(world.size() > 1, rows.held < rows.all);
