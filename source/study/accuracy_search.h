@@ -18,7 +18,8 @@ namespace taut
    *
    * The search starts from coarse values. It runs a centre, and the settings with one refinement
    * halved or doubled. Richardson extrapolation along each refinement gives the converged
-   * quantities with their errors. A second scheme must come to the same values. As long as no
+   * quantities with their errors. A second scheme must come to the same values, and so must a run
+   * with far shorter steps, where the budget has time for it. As long as no
    * setting is accurate enough, the refinement with the largest error is refined. Entries Exact of
    * section Study are not used.
    */
@@ -52,6 +53,7 @@ namespace taut
     void find_scales();
     void rate_settings();
     void ask_second_scheme(const Levels &centre);
+    bool look_far(const Levels &centre);
     void keep_results();
     void report(const StudySetting &best) const;
     UserError no_estimate(const std::string &reason) const;
