@@ -3,6 +3,7 @@
 // process without cuts.
 #include "nodes.h"
 
+#include <array>
 #include <regex>
 
 using namespace verification;
@@ -73,12 +74,14 @@ end
 )";
   }
 
-  /// What the log says of conjugate gradients: iterations and systems.
-  std::string iterations(const NodeRecord &record)
+  /// Iterations of conjugate gradients and systems, of which the log tells.
+  std::array<int, 2> iterations(const NodeRecord &record)
   {
-    static const std::regex said("(\\d+ iterations?) of conjugate gradients in (\\d+ systems?)");
+    static const std::regex said("(\\d+) iterations? of conjugate gradients in (\\d+) systems?");
     std::smatch parts;
-    return std::regex_search(record.log, parts, said) ? parts.str() : "";
+    if (!std::regex_search(record.log, parts, said))
+      return {0, 0};
+    return {std::stoi(parts.str(1)), std::stoi(parts.str(2))};
   }
 } // namespace
 
@@ -94,8 +97,8 @@ TEST(Ranks, solids_in_parts_are_the_same)
 }
 
 // Claim: so are blocks whose meshes do not match, tied by mortar constraints across ranks, and a
-// solid in space on a floor, which takes the same iterations on any number of ranks. Expected: as
-// above.
+// solid in space on a floor. Its iterations are those of one rank but for what the order of sums
+// does near their end. Expected: as above; as many systems, and iterations to 3 %.
 TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
 {
   expect_same_solid("block_on_block", scene_file("block_on_block"), {}, {2u, 7u});
@@ -107,10 +110,13 @@ TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
   expect_same_solid("cube_on_floor", cube, {}, {27u});
   const Overrides parts = {"Partition/Number of substructures=27",
                            "Solver/Interface operator=matrix-free"};
-  const std::string here =
-      iterations(record_nodes_of(cube, parts, taut::Communicator(MPI_COMM_WORLD)));
-  EXPECT_FALSE(here.empty());
-  EXPECT_EQ(here, iterations(record_nodes_of(cube, parts, taut::Communicator())));
+  const std::array<int, 2> here = iterations(
+                               record_nodes_of(cube, parts, taut::Communicator(MPI_COMM_WORLD))),
+                           one = iterations(record_nodes_of(cube, parts, taut::Communicator()));
+  EXPECT_GT(one[0], 0);
+  EXPECT_EQ(here[1], one[1]);
+  EXPECT_NEAR(here[0], one[0], .03 * one[0]);
+  figure(ranks_and_comma() + "iterations over those of one rank", double(here[0]) / one[0]);
 }
 
 // Claim: so is a cube in 512 parts. Expected: as above.
