@@ -324,7 +324,18 @@ TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
 
 TEST(Ranks, every_one_of_a_thousand_spans_is_the_same)
 {
-  expect_same("1000 spans, at rest", 1e-3, line(1000, 1e-3, 1, 1.), {64, 1000});
+  const std::string scene = scene_file("en50318_2002_250");
+  const Overrides at_rest = line(1000, 1e-3, 1, 1.);
+  const Record one = record(scene, at_rest, taut::Communicator()).rest;
+  for (const unsigned int n : {64u, 1000u})
+  {
+    const std::string parts = std::to_string(n);
+    expect_same(
+        "1000 spans at rest, " + parts + " parts, " + ranks_and_comma(), one,
+        record(scene, at_rest + Overrides{"Partition/Number of substructures=" + parts}, world())
+            .rest,
+        0.);
+  }
 }
 
 TEST(Ranks, every_step_size_on_a_hundred_spans_is_the_same)
