@@ -165,8 +165,8 @@ namespace taut
       return names(labels(numbers));
     }
 
-    /// The number of a row that some rank has, the largest of those named; @p i: the index, no_link
-    /// on other ranks and where there is none.
+    /// The number of a row that some rank names by its index @p i, the largest such number; no_link
+    /// on other ranks, and if no rank names a row.
     std::size_t number_of_any(std::size_t i) const;
 
     /// The values of all rows by their numbers, from those over the rows; and back, in place.

@@ -52,8 +52,8 @@ namespace taut
     /// Position of an owned row among the held ones.
     std::size_t position_of_owned(const std::size_t p) const { return own_held[p]; }
 
-    /// Of entries of a matrix over the rows, by their numbers, each rank has shares of those in
-    /// held rows, and gets their sums over the ranks, ordered by rows and columns.
+    /// Each rank has shares of the entries of a matrix in its held rows, by the numbers of the
+    /// rows, and gets the sums over the ranks, ordered by rows and columns.
     void sum_entries(MatrixEntries &entries, std::size_t n_columns) const;
 
     /// Between owned rows, and all rows on all ranks.

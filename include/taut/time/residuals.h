@@ -14,7 +14,7 @@ namespace taut
     /// Largest residual of a constraint over the terms of its gap: |min(F_ii N_i, D_i)|, or |D_i|
     /// if bilateral.
     double complementarity = 0.;
-    std::size_t worst_constraint = 0; ///< its number among those of all ranks
+    std::size_t worst_constraint = 0; ///< its number among all ranks' rows
 
     /// Largest residual of the equation of motion of a body, over |P| + max_i |B_i N_i| + |K U_ref|
     /// + |K||U| + |C||V| + |M||dU|/step^2, with mean forces plus |K||dU|.
