@@ -23,80 +23,76 @@ namespace taut
                         "instead of a ball joint take joints along those that it has");
       return form;
     }
-
-    /// Cells of each part.
-    std::vector<std::vector<unsigned int>> cells_of_parts(const std::vector<unsigned int> &part,
-                                                          const std::size_t n_parts)
-    {
-      std::vector<std::vector<unsigned int>> cells(n_parts);
-      for (std::size_t c = 0; c < part.size(); ++c)
-        cells[part[c]].push_back(c);
-      return cells;
-    }
   } // namespace
 
-  void SceneBodies::add_custom_bodies(const Scene &scene, const Partition &partition,
-                                      const std::vector<unsigned int> &owner)
+  void SceneBodies::list_custom_bodies(const Scene &scene, const Partition &partition,
+                                       const std::vector<unsigned int> &owner,
+                                       std::vector<NewBody> &list, std::vector<CellsOfParts> &cells)
   {
     custom_bodies.resize(scene.bodies.size());
+    cells.resize(scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     {
       const CustomBody &body = scene.bodies[i];
-      if (i < partition.bodies.size())
-        custom_bodies[i].division = partition.bodies[i];
-      if (custom_bodies[i].division.body)
+      const BodySetting setting{body.name, body.origin, scene.gravity};
+      if (i < partition.bodies.size() && partition.bodies[i].body)
       {
-        custom_bodies[i].index = add_parts(scene, i, owner);
+        std::vector<unsigned int> part;
+        cells[i] = number_parts(partition, i, part);
+        for (std::size_t p = 0; p < part.size(); ++p)
+        {
+          custom_bodies[i].index.push_back(list.size());
+          list.push_back({body.name, owner[part[p]],
+                          [this, &scene, i, p, setting, &own = cells[i][p]]
+                          {
+                            auto made = custom_bodies[i].division.body->make_part(setting, own);
+                            add_loads(scene, i, p, *made);
+                            return made;
+                          }});
+        }
         continue;
       }
-      const auto make = [&]
-      {
-        std::unique_ptr<Substructure> made =
-            body.type->make({body.name, body.origin, scene.gravity});
-        if (!made)
-          throw EntryError(body.origin, "its type '" + body.type_name + "' made no body");
-        add_loads(scene, i, 0, *made);
-        return made;
-      };
-      custom_bodies[i].index = {
-          add(body.name, owner[owner.size() - scene.bodies.size() + i], make)};
+      custom_bodies[i].index.push_back(list.size());
+      list.push_back({body.name, owner[owner.size() - scene.bodies.size() + i],
+                      [this, &scene, &body, i, setting]
+                      {
+                        std::unique_ptr<Substructure> made = body.type->make(setting);
+                        if (!made)
+                          throw EntryError(body.origin,
+                                           "its type '" + body.type_name + "' made no body");
+                        add_loads(scene, i, 0, *made);
+                        return made;
+                      }});
     }
   }
 
-  /// The parts of a divided body, numbered anew without parts that have no cell of the body.
-  std::vector<std::size_t> SceneBodies::add_parts(const Scene &scene, const std::size_t body,
-                                                  const std::vector<unsigned int> &owner)
+  /// Numbers the parts of a divided body anew, without those that have no cell of it, with the old
+  /// number of each in @p part.
+  SceneBodies::CellsOfParts SceneBodies::number_parts(const Partition &partition,
+                                                      const std::size_t body,
+                                                      std::vector<unsigned int> &part)
   {
-    const CustomBody &custom = scene.bodies[body];
-    BodyParts &parts = custom_bodies[body];
+    Partition::Division &division = custom_bodies[body].division;
+    division = partition.bodies[body];
     std::map<unsigned int, unsigned int> position;
-    for (const unsigned int part : parts.division.part)
-      position.insert({part, 0});
-    std::vector<unsigned int> rank;
-    for (auto &[part, at] : position)
+    for (const unsigned int p : division.part)
+      position.insert({p, 0});
+    for (auto &[p, at] : position)
     {
-      at = rank.size();
-      rank.push_back(owner[part]);
+      at = part.size();
+      part.push_back(p);
     }
-    for (unsigned int &part : parts.division.part)
-      part = position.at(part);
-
-    const auto cells = cells_of_parts(parts.division.part, rank.size());
-    for (std::size_t p = 0; p < rank.size(); ++p)
-      parts.index.push_back(add(custom.name, rank[p],
-                                [&]
-                                {
-                                  auto made = parts.division.body->make_part(
-                                      {custom.name, custom.origin, scene.gravity}, cells[p]);
-                                  add_loads(scene, body, p, *made);
-                                  return made;
-                                }));
-    tie_parts(custom.name, parts, cells);
-    return parts.index;
+    CellsOfParts cells(part.size());
+    for (std::size_t c = 0; c < division.part.size(); ++c)
+    {
+      division.part[c] = position.at(division.part[c]);
+      cells[division.part[c]].push_back(c);
+    }
+    return cells;
   }
 
   void SceneBodies::tie_parts(const std::string &name, const BodyParts &body,
-                              const std::vector<std::vector<unsigned int>> &cells)
+                              const CellsOfParts &cells)
   {
     const BodyCells &all = body.division.body->cells();
     std::vector<std::tuple<unsigned int, unsigned int, unsigned int>> copies; // DoF, part, own DoF

@@ -79,7 +79,8 @@ namespace taut
     return scene;
   }
 
-  Scene find_lengths(Scene scene, const SolverParameters &parameters, SharedParts *const shared)
+  Scene find_lengths(Scene scene, const SolverParameters &parameters, const Communicator &processes,
+                     SharedParts *const shared)
   {
     std::vector<Link> links;
     std::vector<Attachment> ends;
@@ -104,7 +105,7 @@ namespace taut
       Scene base = part.scene;
       base.links.erase(std::remove_if(base.links.begin(), base.links.end(), is_found),
                        base.links.end());
-      return find_form(base, droppers, parameters);
+      return find_form(base, droppers, parameters, processes);
     };
     const DropperForm form = shared && part.scene.bodies.empty()
                                  ? shared->forms.find(key(part.scene, parameters), find)

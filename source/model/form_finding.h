@@ -2,6 +2,7 @@
 #ifndef taut_form_finding_h
 #define taut_form_finding_h
 
+#include <taut/base/communicator.h>
 #include <taut/scene/scene.h>
 #include <taut/time/step_parameters.h>
 
@@ -29,10 +30,11 @@ namespace taut
    *
    * Returns the scene with gap, length, stiffness and direction of these links, and with half of
    * the mass of each link on each of its ends. The form comes from @p shared if it is known there.
-   * Throws UserError naming the dropper if a tension is negative or a length is not positive.
+   * The ranks share the work on long lines, and call it together. Throws UserError naming the
+   * dropper if a tension is negative or a length is not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
-                     SharedParts *shared = nullptr);
+                     const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
 } // namespace taut
 
 #endif

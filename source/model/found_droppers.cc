@@ -2,11 +2,10 @@
 #include "model/found_droppers.h"
 
 #include "base/text.h"
-#include "model/scene_constraints.h"
 #include "model/scene_part.h"
+#include "model/wires_at_rest.h"
 #include "scene/entries.h"
 #include <taut/base/exceptions.h>
-#include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
 #include <limits>
@@ -141,54 +140,6 @@ namespace taut
                                                form.tension[i] / form.length[i]));
     }
 
-    /// The static state of a scene.
-    /// Long wires are cut: the responses of a whole one are as long as it is, and a local one then
-    /// has no digits beside them, so that iterations grow with the length of the wire.
-    Partition in_pieces(const Scene &scene)
-    {
-      constexpr std::size_t most_elements = 500;
-      Partition result = whole(scene);
-      for (std::size_t w = 0; w < scene.wires.size(); ++w)
-      {
-        const std::size_t n_elements = grid(scene, w).size() - 1,
-                          n_pieces = (n_elements + most_elements - 1) / most_elements;
-        result.wires[w].clear();
-        for (std::size_t p = 0; p < n_pieces; ++p)
-          result.wires[w].push_back({p * n_elements / n_pieces, static_cast<unsigned int>(p)});
-        result.n_parts = std::max(result.n_parts, static_cast<unsigned int>(n_pieces));
-      }
-      return result;
-    }
-
-    class AtRest
-    {
-    public:
-      AtRest(const Scene &scene, const SolverParameters &parameters)
-          : structure(scene, in_pieces(scene)), constraints(scene_constraints(scene, structure)),
-            state(static_equilibrium(structure, constraints, parameters, 0.))
-      {
-      }
-
-      double multiplier(const std::size_t link) const
-      {
-        return state.multiplier[constraints.index_of_link(link)];
-      }
-
-      /// Of the ends of a dropper, along a direction [m].
-      double distance(const FoundDropper &dropper, const Coordinates &direction) const
-      {
-        std::vector<Term> terms;
-        structure.motion(dropper.link.to, false, direction, 1., terms);
-        structure.motion(dropper.link.from, false, direction, -1., terms);
-        return dot(dropper.between, direction) + evaluate(terms, state.displacement);
-      }
-
-    private:
-      const SceneBodies structure;
-      const Constraints constraints;
-      const StaticState state;
-    };
-
     /// Whether forces at the `from` ends move what holds the `to` ends, through other links.
     bool are_ends_connected(const Scene &base, const std::vector<FoundDropper> &droppers)
     {
@@ -212,7 +163,7 @@ namespace taut
     /// for ropes and for droppers of a given length. The `from` ends carry the tensions @p last.
     std::vector<double> tensions(const Scene &base, const std::vector<FoundDropper> &droppers,
                                  const std::vector<double> &last, const DropperForm &before,
-                                 const SolverParameters &parameters)
+                                 const SolverParameters &parameters, const Communicator &processes)
     {
       Scene scene = base;
       for (std::size_t i = 0; i < droppers.size(); ++i)
@@ -241,7 +192,7 @@ namespace taut
         scene.links.push_back(hold);
       }
       add_sideways(droppers, before, scene);
-      const AtRest rest(scene, parameters);
+      const WiresAtRest rest(scene, parameters, processes);
       std::vector<double> result;
       for (std::size_t i = 0; i < droppers.size(); ++i)
         result.push_back(droppers[i].is_rope() || droppers[i].is_given()
@@ -305,10 +256,11 @@ namespace taut
      */
     DropperForm form_under(const Scene &base, const std::vector<FoundDropper> &droppers,
                            const std::vector<double> &tension, const DropperForm &before,
-                           const SolverParameters &parameters)
+                           const SolverParameters &parameters, const Communicator &processes)
     {
       Scene scene = base;
       std::vector<std::size_t> link_of; ///< of droppers of a given length
+      std::vector<Coordinates> along;   ///< directions of the droppers
       bool finds_directions = false;
       for (const FoundDropper &dropper : droppers)
       {
@@ -326,14 +278,13 @@ namespace taut
           scene.loads.push_back(force(link, link.to, -N));
         }
         finds_directions |= link.form.find_direction;
+        along.push_back(link.direction);
       }
       DropperForm form{tension, {}, std::vector<double>(droppers.size(), 0.)};
       {
         Scene high = scene;
         add_sideways(droppers, before, high);
-        const AtRest rest(high, parameters);
-        for (const FoundDropper &dropper : droppers)
-          form.length.push_back(rest.distance(dropper, dropper.link.direction));
+        form.length = WiresAtRest(high, parameters, processes).distances(droppers, along);
       }
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
@@ -354,16 +305,22 @@ namespace taut
         return form;
 
       add_sideways(droppers, form, scene);
-      const AtRest rest(scene, parameters);
+      const WiresAtRest rest(scene, parameters, processes);
+      std::vector<Coordinates> across = along;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (droppers[i].link.form.find_direction)
+          across[i] = sideways(scene, droppers[i].link);
+      const std::vector<double> extent = rest.distances(droppers, along),
+                                aside = rest.distances(droppers, across);
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         const Link &link = droppers[i].link;
         if (!link.form.find_direction)
           continue;
-        form.sideways[i] = rest.distance(droppers[i], sideways(scene, link));
+        form.sideways[i] = aside[i];
         if (droppers[i].is_given())
         {
-          form.length[i] = std::hypot(rest.distance(droppers[i], link.direction), form.sideways[i]);
+          form.length[i] = std::hypot(extent[i], form.sideways[i]);
           form.tension[i] = rest.multiplier(link_of[i]);
           continue;
         }
@@ -388,7 +345,7 @@ namespace taut
   } // namespace
 
   DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
-                        const SolverParameters &parameters)
+                        const SolverParameters &parameters, const Communicator &processes)
   {
     // Rounding of the heights of a long line keeps changes of lengths above `settled`, but not
     // above `rounding`, which are a hundredth of a newton for a dropper of 1e5 N/m and 1 m.
@@ -414,7 +371,8 @@ namespace taut
     {
       if (iteration == 0 || !weigh)
       {
-        const std::vector<double> found = tensions(base, droppers, tension, before, parameters);
+        const std::vector<double> found =
+            tensions(base, droppers, tension, before, parameters, processes);
         if (is_connected && iteration > 0)
           tensions_of_ends.advance(found, tension);
         else
@@ -422,7 +380,7 @@ namespace taut
       }
       if (!is_connected)
         check_pull(droppers, tension);
-      const DropperForm form = form_under(base, droppers, tension, before, parameters);
+      const DropperForm form = form_under(base, droppers, tension, before, parameters, processes);
       double change = 0.;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {

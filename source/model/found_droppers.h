@@ -3,6 +3,7 @@
 #define taut_found_droppers_h
 
 #include "model/shared_parts.h"
+#include <taut/base/communicator.h>
 #include <taut/scene/scene.h>
 #include <taut/time/step_parameters.h>
 
@@ -43,9 +44,10 @@ namespace taut
   /// Half of the mass of a dropper on each of its ends.
   void add_mass(const Link &link, Scene &scene);
 
-  /// Tensions and lengths of the droppers between the parts of a scene without them.
+  /// Tensions and lengths of the droppers between the parts of a scene without them. Called by all
+  /// ranks together.
   DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
-                        const SolverParameters &parameters);
+                        const SolverParameters &parameters, const Communicator &processes);
 
   /// Length, stiffness, direction and gap of @p link of @p scene, which is number @p i of the form.
   void take_form(const Scene &scene, const FoundDropper &dropper, const DropperForm &form,

@@ -118,82 +118,101 @@ namespace taut
     const auto mechanisms = connected_masses(scene);
     const std::vector<unsigned int> owner =
         share_out(scene, partition, mechanisms, processes.size());
+    // Places in the list at first, then indices.
+    std::vector<NewBody> list;
     for (std::size_t i = 0; i < scene.wires.size(); ++i)
-    {
-      const Wire &wire = scene.wires[i];
-      axes.push_back({});
-      rotation_axes.push_back({});
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        axes.back()[c] = wire.axis(wire_components[c]);
-        rotation_axes.back()[c] = wire.rotation_axis(wire_components[c]);
-      }
-      lengths.push_back(wire.length());
-      const std::vector<double> nodes = grid(scene, i);
-      for (const Partition::Piece &piece : partition.wires[i])
-      {
-        wires[i].begins.push_back(nodes[piece.first]);
-        wires[i].part.push_back(piece.part);
-      }
-      for (unsigned int c = 0; c < 3; ++c)
-        if (wire.has(wire_components[c]))
-          add_pieces(scene, i, wire_components[c], partition.wires[i], owner, shared,
-                     wires[i].components[c]);
-    }
+      list_wire(scene, i, partition.wires[i], owner, shared, list);
     for (std::size_t m = 0; m < mechanisms.size(); ++m)
     {
-      const std::size_t k =
-          add(Mechanism::name_of(scene, mechanisms[m]), owner[partition.n_parts + m],
-              [&] { return std::make_unique<Mechanism>(scene, mechanisms[m]); });
       for (const std::size_t mass : mechanisms[m])
-        mechanism_of_mass[mass] = k;
+        mechanism_of_mass[mass] = list.size();
+      list.push_back({Mechanism::name_of(scene, mechanisms[m]), owner[partition.n_parts + m],
+                      [&scene, &members = mechanisms[m]]
+                      { return std::make_unique<Mechanism>(scene, members); }});
     }
-    add_custom_bodies(scene, partition, owner);
+    std::vector<CellsOfParts> cells;
+    list_custom_bodies(scene, partition, owner, list, cells);
+
+    const std::vector<std::size_t> index = add(list);
+    const auto find = [&](std::vector<std::size_t> &places)
+    {
+      for (std::size_t &at : places)
+        at = index[at];
+    };
+    for (WireParts &parts : wires)
+      for (std::vector<std::size_t> &component : parts.components)
+        find(component);
+    find(mechanism_of_mass);
+    for (BodyParts &body : custom_bodies)
+      find(body.index);
+
+    for (std::size_t i = 0; i < scene.wires.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        tie_pieces(scene, i, wire_components[c], wires[i].components[c]);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (custom_bodies[i].division.body)
+        tie_parts(scene.bodies[i].name, custom_bodies[i], cells[i]);
     check_places(scene);
   }
 
-  void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
-                               const std::vector<Partition::Piece> &pieces,
-                               const std::vector<unsigned int> &owner, SharedParts *const shared,
-                               std::vector<std::size_t> &indices)
+  /// The pieces of a wire, for each component.
+  void SceneBodies::list_wire(const Scene &scene, const std::size_t wire,
+                              const std::vector<Partition::Piece> &pieces,
+                              const std::vector<unsigned int> &owner, SharedParts *const shared,
+                              std::vector<NewBody> &list)
   {
-    const std::vector<double> nodes = grid(scene, wire);
-    const Scene part = wire_part(scene, wire);
-    const std::string name = WireComponent::name_of(scene, wire, motion);
+    const Wire &data = scene.wires[wire];
+    axes.push_back({});
+    rotation_axes.push_back({});
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      axes.back()[c] = data.axis(wire_components[c]);
+      rotation_axes.back()[c] = data.rotation_axis(wire_components[c]);
+    }
+    lengths.push_back(data.length());
+    const auto nodes = std::make_shared<const std::vector<double>>(grid(scene, wire));
+    const auto part = std::make_shared<const Scene>(wire_part(scene, wire));
+    for (const Partition::Piece &piece : pieces)
+    {
+      wires[wire].begins.push_back((*nodes)[piece.first]);
+      wires[wire].part.push_back(piece.part);
+    }
+    for (unsigned int c = 0; c < 3; ++c)
+      for (std::size_t p = 0; data.has(wire_components[c]) && p < pieces.size(); ++p)
+      {
+        const WireMotion motion = wire_components[c];
+        const std::size_t first = pieces[p].first,
+                          last = p + 1 < pieces.size() ? pieces[p + 1].first : nodes->size() - 1;
+        wires[wire].components[c].push_back(list.size());
+        list.push_back({WireComponent::name_of(scene, wire, motion), owner[pieces[p].part],
+                        [=] { return make_piece(*part, motion, *nodes, first, last, shared); }});
+      }
+  }
+
+  /// The constraints of the cuts between the pieces of a component of a wire.
+  void SceneBodies::tie_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
+                               const std::vector<std::size_t> &indices)
+  {
     const bool has_slopes =
         motion != WireMotion::axial && scene.wires[wire].transverse == TransverseKind::beam;
-    const WireComponent *left = nullptr;
-    for (std::size_t p = 0; p < pieces.size(); ++p)
-    {
-      const std::size_t last = p + 1 < pieces.size() ? pieces[p + 1].first : nodes.size() - 1;
-      const WireComponent *right = nullptr;
-      indices.push_back(add(name, owner[pieces[p].part],
-                            [&]
-                            {
-                              auto made =
-                                  make_piece(part, motion, nodes, pieces[p].first, last, shared);
-                              right = static_cast<const WireComponent *>(made.get());
-                              return made;
-                            }));
-      for (unsigned int k = 0; p > 0 && k < (has_slopes ? 2u : 1u); ++k)
+    for (std::size_t p = 1; p < indices.size(); ++p)
+      for (unsigned int k = 0; k < (has_slopes ? 2u : 1u); ++k)
       {
-        CutConstraint constraint{
-            to_text(name, k == 1 ? " slope" : "", " cut at ", nodes[pieces[p].first], " m"),
-            k == 1,
-            {}};
-        const auto append = [&](const std::size_t body, const unsigned int dof, const double sign)
-        {
-          constraint.terms.push_back({body, {}});
-          constraint.terms.back().form.add(dof, sign);
-        };
-        if (left)
-          append(indices[p - 1], left->last_dof() + k, 1.);
-        if (right)
-          append(indices[p], right->first_dof() + k, -1.);
+        CutConstraint constraint{to_text(WireComponent::name_of(scene, wire, motion),
+                                         k == 1 ? " slope" : "", " cut at ", wires[wire].begins[p],
+                                         " m"),
+                                 k == 1,
+                                 {}};
+        for (const bool is_left : {true, false})
+          if (const std::size_t body = indices[is_left ? p - 1 : p]; body != elsewhere)
+          {
+            const auto &piece = static_cast<const WireComponent &>((*this)[body]);
+            constraint.terms.push_back({body, {}});
+            constraint.terms.back().form.add((is_left ? piece.last_dof() : piece.first_dof()) + k,
+                                             is_left ? 1. : -1.);
+          }
         cuts.push_back(std::move(constraint));
       }
-      left = right;
-    }
   }
 
   std::size_t SceneBodies::piece(const WireParts &parts, const double s) const

@@ -36,11 +36,13 @@ namespace taut
   namespace
   {
     /// Scene with all lengths, and with massless nodes if its contacts require them.
-    Scene prepare_scene(const Parameters &parameters, SharedParts *const shared)
+    Scene prepare_scene(const Parameters &parameters, const Communicator &processes,
+                        SharedParts *const shared)
     {
       if (shared)
         shared->begin();
-      Scene scene = find_lengths(choose_slaves(parameters.scene()), parameters.solver, shared);
+      Scene scene =
+          find_lengths(choose_slaves(parameters.scene()), parameters.solver, processes, shared);
       if (parameters.chooses_contact_mass())
         redistribute_contact_mass(scene, parameters.solver, parameters.step);
       return scene;
@@ -50,7 +52,7 @@ namespace taut
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
                          const Communicator &processes, SharedParts *const shared)
       : parameters(parameters), log(log), processes(processes),
-        model(prepare_scene(parameters, shared)),
+        model(prepare_scene(parameters, processes, shared)),
         bodies(model, make_partition(model, choose_parts()), processes, shared),
         grounded_links(check_held_ends(model, bodies)), links(make_constraints()),
         figures(parameters.statistics, model, links)

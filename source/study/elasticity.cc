@@ -170,7 +170,8 @@ namespace taut
           "hang lowest, and the scene has no wire that moves across");
     SharedParts shared;
     shared.begin();
-    Scene scene = find_lengths(without_sliding_contacts(all), parameters.solver, &shared);
+    Scene scene =
+        find_lengths(without_sliding_contacts(all), parameters.solver, Communicator(), &shared);
     if (!asked.slackening)
       scene = linear_at_rest(scene, AtRest(scene, parameters.solver, shared));
     const AtRest rest(scene, parameters.solver, shared);

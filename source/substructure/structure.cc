@@ -8,27 +8,34 @@
 
 namespace taut
 {
-  std::size_t Structure::add(const std::string &name, const unsigned int owner, const Factory &make)
+  std::vector<std::size_t> Structure::add(const std::vector<NewBody> &made)
   {
-    std::size_t index = elsewhere;
-    double n_dofs = 0.;
+    std::vector<std::size_t> index(made.size(), elsewhere);
+    std::vector<double> n_dofs(made.size(), 0.);
     processes.agree(
         [&]
         {
-          if (owner != processes.rank())
-            return;
-          std::shared_ptr<Substructure> body = make ? make() : nullptr;
-          if (!body)
-            throw UserError("body '" + name + "': the function that makes it returns none");
-          body->check_consistency();
-          substructures.push_back(std::move(body));
-          index = substructures.size() - 1;
-          n_dofs = substructures.back()->n_dofs();
+          for (std::size_t i = 0; i < made.size(); ++i)
+          {
+            const auto &[name, owner, make] = made[i];
+            if (owner != processes.rank())
+              continue;
+            std::shared_ptr<Substructure> body = make ? make() : nullptr;
+            if (!body)
+              throw UserError("body '" + name + "': the function that makes it returns none");
+            body->check_consistency();
+            index[i] = substructures.size();
+            n_dofs[i] = body->n_dofs();
+            substructures.push_back(std::move(body));
+          }
         });
-    processes.sum(&n_dofs, 1);
-    if (index != elsewhere)
-      numbers.push_back(bodies.size());
-    bodies.push_back({name, static_cast<std::size_t>(n_dofs)});
+    processes.sum(n_dofs);
+    for (std::size_t i = 0; i < made.size(); ++i)
+    {
+      if (index[i] != elsewhere)
+        numbers.push_back(bodies.size());
+      bodies.push_back({made[i].name, static_cast<std::size_t>(n_dofs[i])});
+    }
     return index;
   }
 

@@ -179,3 +179,16 @@ TEST(RankCounts, an_iteration_is_bounded_on_any_number_of_ranks)
   EXPECT_LE(summed, 2. * modes + 30.);
   EXPECT_EQ(others, 0.);
 }
+
+// Claim: the ranks make their bodies at the same time. Expected: the set-up has as many sums over
+// the ranks for 64 bodies as for 16.
+TEST(RankCounts, the_ranks_make_their_bodies_at_the_same_time)
+{
+  const auto sums_of_setup = [](const unsigned int n)
+  {
+    counts = {};
+    const SquareInParts square(n, 2);
+    return counts.sums;
+  };
+  EXPECT_EQ(sums_of_setup(8), sums_of_setup(4));
+}

@@ -118,20 +118,25 @@ namespace taut
       Partition::Division division;   ///< with the position in `index` of the part of each cell
     };
 
-    void add_custom_bodies(const Scene &scene, const Partition &partition,
-                           const std::vector<unsigned int> &owner);
-    std::vector<std::size_t> add_parts(const Scene &scene, std::size_t body,
-                                       const std::vector<unsigned int> &owner);
-    void tie_parts(const std::string &name, const BodyParts &body,
-                   const std::vector<std::vector<unsigned int>> &cells);
+    /// Cells of the parts of a body.
+    using CellsOfParts = std::vector<std::vector<unsigned int>>;
+
+    CellsOfParts number_parts(const Partition &partition, std::size_t body,
+                              std::vector<unsigned int> &part);
+    void list_custom_bodies(const Scene &scene, const Partition &partition,
+                            const std::vector<unsigned int> &owner, std::vector<NewBody> &list,
+                            std::vector<CellsOfParts> &cells);
+    void tie_parts(const std::string &name, const BodyParts &body, const CellsOfParts &cells);
     std::size_t part_at(std::size_t body, const Coordinates &place) const;
     void add_loads(const Scene &scene, std::size_t body, std::size_t part,
                    Substructure &made) const;
     void check_places(const Scene &scene) const;
-    void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
-                    const std::vector<Partition::Piece> &pieces,
-                    const std::vector<unsigned int> &owner, SharedParts *shared,
-                    std::vector<std::size_t> &indices);
+    void list_wire(const Scene &scene, std::size_t wire,
+                   const std::vector<Partition::Piece> &pieces,
+                   const std::vector<unsigned int> &owner, SharedParts *shared,
+                   std::vector<NewBody> &list);
+    void tie_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
+                    const std::vector<std::size_t> &indices);
     std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<WireParts> wires;

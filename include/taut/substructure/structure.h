@@ -45,11 +45,27 @@ namespace taut
     /// Index of a substructure that is on another rank.
     static constexpr std::size_t elsewhere = -1;
 
-    /// Adds the substructure that @p make returns on the rank @p owner. Called by all ranks
-    /// together. Returns the index of the substructure on the owner, and `elsewhere` on other
-    /// ranks. Throws on all ranks what @p make throws, and UserError for no body or a body that is
-    /// not consistent, see Substructure::check_consistency().
-    std::size_t add(const std::string &name, unsigned int owner, const Factory &make);
+    /// A substructure to be made.
+    struct NewBody
+    {
+      std::string name;
+      unsigned int owner; ///< rank
+      Factory make;
+    };
+
+    /**
+     * Adds substructures, which their owners make at the same time. Called by all ranks together.
+     * Returns the index of each of them on its owner, and `elsewhere` on other ranks. Throws on all
+     * ranks what a `make` throws, and UserError for no body or a body that is not consistent, see
+     * Substructure::check_consistency().
+     */
+    std::vector<std::size_t> add(const std::vector<NewBody> &made);
+
+    /// One substructure. The ranks wait for its owner: add many of them together.
+    std::size_t add(const std::string &name, const unsigned int owner, const Factory &make)
+    {
+      return add(std::vector<NewBody>{{name, owner, make}}).front();
+    }
 
     const Communicator &communicator() const { return processes; }
 
