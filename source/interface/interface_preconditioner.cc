@@ -6,11 +6,9 @@
 
 #include <taut/base/exceptions.h>
 
-#include <boost/pending/disjoint_sets.hpp>
-
 #include <algorithm>
 #include <numeric>
-#include <utility>
+#include <set>
 
 namespace taut
 {
@@ -24,6 +22,12 @@ namespace taut
     /// within the group do not excite its rigid body modes. It is well above rounding, and
     /// solutions do not depend on a preconditioner.
     constexpr double null_space_shift = 1e-9;
+
+    void sort_unique(std::vector<std::size_t> &values)
+    {
+      std::sort(values.begin(), values.end());
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+    }
   } // namespace
 
   InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
@@ -37,47 +41,118 @@ namespace taut
                       "'; known are: diagonal, Dirichlet. Correct the name");
   }
 
+  /// On the rows that this rank owns, from a vector over its constraints.
+  template <typename Values>
+  std::vector<double> InterfacePreconditioner::of_owned(const Values &of_constraints) const
+  {
+    std::vector<double> result;
+    for (const std::size_t number : owners->owned())
+      result.push_back(of_constraints[constraints.index(number)]);
+    return result;
+  }
+
+  std::vector<double>
+  InterfacePreconditioner::on_blocks_from_owners(const std::vector<double> &values) const
+  {
+    std::vector<double> result(kept.size());
+    if (own_rows)
+      own_rows->copy_to_holders(values.data(), result.data());
+    else if (is_diagonal)
+      result = values;
+    else
+      owners->gather(values, result);
+    return result;
+  }
+
+  std::vector<double>
+  InterfacePreconditioner::on_blocks(const std::vector<double> &of_constraints) const
+  {
+    return on_blocks_from_owners(of_owned(of_constraints));
+  }
+
+  void InterfacePreconditioner::copy_to_blocks(MatrixEntries &of_owned,
+                                               const std::size_t n_columns) const
+  {
+    if (own_rows)
+      own_rows->sum_entries(of_owned, n_columns);
+    else if (!is_diagonal)
+      gather(owners->communicator(), of_owned);
+  }
+
   void InterfacePreconditioner::setup(const RowMap &rows, const std::vector<char> &active,
                                       const std::vector<char> &is_changed,
                                       const std::vector<double> &own_compliance,
                                       const std::vector<double> &own_diagonal)
   {
     owners = &rows;
-    std::vector<double> is_active, compliance, diagonal;
-    constraints.gather({active.begin(), active.end()}, is_active);
-    constraints.gather(own_compliance, compliance);
-    constraints.gather(own_diagonal, diagonal);
-    other.assign(is_active.size(), 0.);
-    for (std::size_t i = 0; i < other.size(); ++i)
-      other[i] = is_active[i] > 0. && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
-    own = other;
-    own_rows.reset();
+    const auto is_elastic = [&](const std::size_t number)
+    {
+      const std::size_t i = constraints.index(number);
+      return active[i] && own_compliance[i] > smallest_compliance * own_diagonal[i];
+    };
+    has_springs =
+        !is_diagonal &&
+        rows.communicator().any(std::any_of(rows.owned().begin(), rows.owned().end(), is_elastic));
     if (is_diagonal)
     {
       kept = rows.owned();
-      Q_entries = {};
+      set_rows(active, own_diagonal, own_compliance);
       return;
     }
-    set_stiffness(is_active, diagonal, compliance);
     T.setup(active, is_changed, has_springs);
+    if (rows.communicator().size() > 1 && !has_springs)
+    {
+      stiffness.clear();
+      const MatrixEntries products = scale_by_stiffness();
+      keep_blocks(products);
+      set_rows(active, own_diagonal, own_compliance);
+      MatrixEntries of_kept;
+      for (std::size_t e = 0; e < scaled_B.size(); ++e)
+        if (scaled_B.value[e] != 0.)
+          of_kept.add(position(scaled_B.row[e]), scaled_B.column[e], scaled_B.value[e]);
+      scaled_B = std::move(of_kept);
+      set_scaling(products);
+      return;
+    }
+    own_rows.reset();
+    kept.resize(constraints.n_of_all());
+    std::iota(kept.begin(), kept.end(), std::size_t(0));
+    set_rows(active, own_diagonal, own_compliance);
     if (has_springs)
       add_springs();
-    set_scaling(rows);
+    set_scaling(scale_by_stiffness());
   }
 
-  /// Which rows are elastic.
-  void InterfacePreconditioner::set_stiffness(const std::vector<double> &active,
-                                              const std::vector<double> &diagonal,
-                                              const std::vector<double> &compliance)
+  /// Of a row among those of blocks().
+  std::size_t InterfacePreconditioner::position(const int number) const
   {
-    has_springs = false;
-    stiffness.assign(active.size(), 0.);
-    for (std::size_t i = 0; i < active.size(); ++i)
-      if (active[i] > 0. && compliance[i] > smallest_compliance * diagonal[i])
-      {
-        stiffness[i] = 1. / compliance[i];
-        has_springs = true;
-      }
+    const auto i = static_cast<std::size_t>(number);
+    return own_rows ? std::lower_bound(kept.begin(), kept.end(), i) - kept.begin() : i;
+  }
+
+  /// Which rows are active, and which of them are elastic.
+  void InterfacePreconditioner::set_rows(const std::vector<char> &active,
+                                         const std::vector<double> &own_diagonal,
+                                         const std::vector<double> &own_compliance)
+  {
+    const std::vector<double> is_active = on_blocks_from_owners(of_owned(active)),
+                              diagonal = on_blocks(own_diagonal),
+                              compliance = on_blocks(own_compliance);
+    other.assign(kept.size(), 0.);
+    stiffness.assign(kept.size(), 0.);
+    is_rigid.assign(kept.size(), 0);
+    for (std::size_t p = 0; p < kept.size(); ++p)
+    {
+      if (is_active[p] > 0. && diagonal[p] > 0.)
+        other[p] = 1. / diagonal[p];
+      if (has_springs && is_active[p] > 0. && compliance[p] > smallest_compliance * diagonal[p])
+        stiffness[p] = 1. / compliance[p];
+    }
+    place.clear();
+    for (std::size_t p = 0; p < kept.size() && place.size() < owners->owned().size(); ++p)
+      if (kept[p] == owners->owned()[place.size()])
+        place.push_back(p);
+    Q_entries = {};
   }
 
   /// The elastic rows as springs between the DoFs, and the factor of T with them.
@@ -98,10 +173,10 @@ namespace taut
     inverse_T.factor(T.n_dofs(), shifted, 0.);
   }
 
-  /// Computes D^-1 B_r, and Q from rows with a common DoF.
-  void InterfacePreconditioner::set_scaling(const RowMap &rows)
+  /// Sets D^-1 B_r, and returns its products with rows that have a DoF in common, by the numbers of
+  /// the rows.
+  MatrixEntries InterfacePreconditioner::scale_by_stiffness()
   {
-    const bool is_shared = rows.communicator().size() > 1 && !has_springs;
     const MatrixEntries &B = T.constraints();
     const std::vector<double> D = T.diagonal();
     scaled_B = B;
@@ -109,43 +184,45 @@ namespace taut
     for (std::size_t e = 0; e < B.size(); ++e)
     {
       const double d = D[B.column[e]];
-      scaled_B.value[e] = d > 0. && stiffness[B.row[e]] == 0. ? B.value[e] / d : 0.;
+      const bool is_elastic = has_springs && stiffness[B.row[e]] != 0.;
+      scaled_B.value[e] = d > 0. && !is_elastic ? B.value[e] / d : 0.;
       if (scaled_B.value[e] != 0.)
         at_dof[B.column[e]].push_back(e);
     }
-    SymmetricEntries products;
+    MatrixEntries products;
     for (const auto &at : at_dof)
       for (std::size_t a = 0; a < at.size(); ++a)
         for (std::size_t b = 0; b <= a; ++b)
           products.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
-    if (is_shared)
-      gather(rows.communicator(), products);
-    Q_entries = {};
-    std::vector<double> diagonal(other.size(), 0.);
-    is_rigid.assign(other.size(), 0);
-    for (std::size_t e = 0; e < products.size(); ++e)
-      if (products.row[e] == products.column[e])
-        diagonal[products.row[e]] += products.value[e];
+    products.compress();
+    return products;
+  }
+
+  /// Q from the shares that the ranks have of its entries.
+  void InterfacePreconditioner::set_scaling(const MatrixEntries &products)
+  {
+    MatrixEntries sums = products;
+    if (own_rows)
+      own_rows->sum_entries(sums, constraints.n_of_all());
+    std::vector<double> diagonal(kept.size(), 0.);
+    for (std::size_t e = 0; e < sums.size(); ++e)
+    {
+      const std::size_t row = position(sums.row[e]), column = position(sums.column[e]);
+      if (row == column)
+        diagonal[row] += sums.value[e];
       else
-        Q_entries.add(products.row[e], products.column[e], products.value[e]);
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
+        Q_entries.add(row, column, sums.value[e]);
+    }
+    for (std::size_t p = 0; p < diagonal.size(); ++p)
     {
       // Q is singular for dependent rigid constraints.
-      Q_entries.add(i, i, diagonal[i] > 0. ? diagonal[i] * (1. + dependence_shift) : 1.);
-      is_rigid[i] = diagonal[i] > 0.;
-      if (is_rigid[i])
-        other[i] = 0.;
-      own[i] = stiffness[i] == 0. ? other[i] : 0.;
-    }
-    if (is_shared)
-      keep_own_blocks(rows);
-    else
-    {
-      kept.resize(diagonal.size());
-      std::iota(kept.begin(), kept.end(), std::size_t(0));
+      Q_entries.add(p, p, diagonal[p] > 0. ? diagonal[p] * (1. + dependence_shift) : 1.);
+      is_rigid[p] = diagonal[p] > 0.;
+      if (is_rigid[p])
+        other[p] = 0.;
     }
     Q_entries.compress();
-    rows.communicator().agree([&] { Q.factor(kept.size(), Q_entries, 0.); });
+    owners->communicator().agree([&] { Q.factor(kept.size(), Q_entries, 0.); });
   }
 
   RowBlocks InterfacePreconditioner::blocks() const
@@ -156,41 +233,72 @@ namespace taut
     return {kept, groups.numbers()};
   }
 
-  /// Keeps the blocks of Q that the bodies of this rank see, in @p entries and D^-1 B_r.
-  void InterfacePreconditioner::keep_own_blocks(const RowMap &rows)
+  /**
+   * Keeps the rows of the blocks of Q that the bodies of this rank see, and its owned rows. Rows of
+   * a block may be on ranks that do not know each other: the ranks first agree on the smallest
+   * number of each block, and its owner then tells them all rows.
+   */
+  void InterfacePreconditioner::keep_blocks(const MatrixEntries &products)
   {
-    boost::disjoint_sets_with_storage<> blocks(is_rigid.size());
-    for (std::size_t e = 0; e < Q_entries.size(); ++e)
-      blocks.union_set(static_cast<std::size_t>(Q_entries.row[e]),
-                       static_cast<std::size_t>(Q_entries.column[e]));
-    std::vector<char> is_seen(is_rigid.size(), 0);
-    for (const std::size_t i : rows.owned())
-      is_seen[blocks.find_set(i)] = 1;
-    for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      if (scaled_B.value[e] != 0.)
-        is_seen[blocks.find_set(static_cast<std::size_t>(scaled_B.row[e]))] = 1;
-    kept.clear();
-    std::vector<std::size_t> position(is_rigid.size(), 0);
-    for (std::size_t i = 0; i < is_rigid.size(); ++i)
-      if (is_seen[blocks.find_set(i)])
+    const Communicator &processes = owners->communicator();
+    const bool is_same = own_rows && pattern.row == products.row &&
+                         pattern.column == products.column && owned == owners->owned();
+    if (!processes.any(!is_same))
+      return;
+    const std::vector<std::size_t> &held = owners->held();
+    const auto position = [&](const int number)
+    {
+      return std::lower_bound(held.begin(), held.end(), static_cast<std::size_t>(number)) -
+             held.begin();
+    };
+    Groups groups(held.size());
+    std::vector<char> is_seen(held.size(), 0);
+    for (std::size_t e = 0; e < products.size(); ++e)
+    {
+      const auto row = position(products.row[e]), column = position(products.column[e]);
+      groups.join(row, column);
+      is_seen[row] = is_seen[column] = 1;
+    }
+    const std::vector<std::vector<std::size_t>> members = groups.members();
+    std::vector<double> block(held.begin(), held.end());
+    for (bool is_changed = true; is_changed;)
+    {
+      const std::vector<double> before = block;
+      for (const std::vector<std::size_t> &rows : members)
       {
-        position[i] = kept.size();
-        kept.push_back(i);
+        double smallest = block[rows.front()];
+        for (const std::size_t p : rows)
+          smallest = std::min(smallest, block[p]);
+        for (const std::size_t p : rows)
+          block[p] = smallest;
       }
-    MatrixEntries of_B;
-    for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      if (scaled_B.value[e] != 0.)
-        of_B.add(position[scaled_B.row[e]], scaled_B.column[e], scaled_B.value[e]);
-    scaled_B = std::move(of_B);
-    SymmetricEntries of_kept;
-    for (std::size_t e = 0; e < Q_entries.size(); ++e)
-      if (is_seen[blocks.find_set(static_cast<std::size_t>(Q_entries.row[e]))])
-        of_kept.add(position[Q_entries.row[e]], position[Q_entries.column[e]], Q_entries.value[e]);
-    Q_entries = std::move(of_kept);
-    place.clear();
-    for (const std::size_t i : rows.owned())
-      place.push_back(position[i]);
-    own_rows = std::make_unique<const RowMap>(rows, kept);
+      owners->take_smallest(block);
+      is_changed = processes.any(block != before);
+    }
+
+    MatrixEntries rows_of_blocks;
+    std::vector<std::size_t> wanted = owners->owned();
+    for (std::size_t p = 0; p < owners->owned().size(); ++p)
+    {
+      const std::size_t at = owners->position_of_owned(p);
+      is_seen[at] = 1;
+      rows_of_blocks.add(static_cast<std::size_t>(block[at]), held[at], 1.);
+    }
+    std::set<std::size_t> seen;
+    for (std::size_t p = 0; p < held.size(); ++p)
+      if (is_seen[p])
+        seen.insert(static_cast<std::size_t>(block[p]));
+    wanted.insert(wanted.end(), seen.begin(), seen.end());
+    sort_unique(wanted);
+    RowMap(*owners, wanted).sum_entries(rows_of_blocks, constraints.n_of_all());
+    kept = owners->owned();
+    for (std::size_t e = 0; e < rows_of_blocks.size(); ++e)
+      if (seen.count(rows_of_blocks.row[e]) > 0)
+        kept.push_back(rows_of_blocks.column[e]);
+    sort_unique(kept);
+    own_rows = std::make_unique<const RowMap>(*owners, kept);
+    pattern = products;
+    owned = owners->owned();
   }
 
   void InterfacePreconditioner::scale(std::vector<double> &r) const
@@ -198,13 +306,13 @@ namespace taut
     if (is_diagonal)
     {
       for (std::size_t p = 0; p < r.size(); ++p)
-        r[p] *= other[kept[p]];
+        r[p] *= other[p];
       return;
     }
     jump = r;
     Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
-      r[p] = is_rigid[kept[p]] ? jump[p] : other[kept[p]] * r[p];
+      r[p] = is_rigid[p] ? jump[p] : other[p] * r[p];
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -218,7 +326,7 @@ namespace taut
     }
     z.resize(r.size());
     for (std::size_t p = 0; p < r.size(); ++p)
-      z[p] = own[owners->owned()[p]] * r[p];
+      z[p] = other[place[p]] * r[p];
     if (own_rows)
       apply_by_owners(r, z);
   }
@@ -242,7 +350,7 @@ namespace taut
     own_rows->copy_to_holders(image.data(), jump.data());
     Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
-      if (is_rigid[owners->owned()[p]])
+      if (is_rigid[place[p]])
         z[p] += jump[place[p]];
   }
 
@@ -251,7 +359,7 @@ namespace taut
   {
     z.resize(r.size());
     for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = own[i] * r[i];
+      z[i] = stiffness[i] == 0. ? other[i] * r[i] : 0.;
 
     const MatrixEntries &B = T.constraints();
     // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.

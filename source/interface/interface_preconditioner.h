@@ -80,16 +80,27 @@ namespace taut
     /// constraints.
     RowBlocks blocks() const;
 
+    /// Values on the rows of blocks(), from a vector over the constraints of this rank; and the
+    /// entries there of a matrix, by the numbers of rows, of which each rank has those in the rows
+    /// that it owns. Called by all ranks together.
+    std::vector<double> on_blocks(const std::vector<double> &of_constraints) const;
+    void copy_to_blocks(MatrixEntries &of_owned, std::size_t n_columns) const;
+
     /// r = Q^-1 r on the rows of blocks(): local stiffness at a constraint, without the bodies
     /// behind; 1 / F_ii for elastic constraints and without T. Zero on inactive constraints.
     void scale(std::vector<double> &r) const;
 
   private:
-    void set_stiffness(const std::vector<double> &active, const std::vector<double> &diagonal,
-                       const std::vector<double> &compliance);
+    template <typename Values>
+    std::vector<double> of_owned(const Values &of_constraints) const;
+    std::vector<double> on_blocks_from_owners(const std::vector<double> &values) const;
+    std::size_t position(int number) const;
+    void set_rows(const std::vector<char> &active, const std::vector<double> &diagonal,
+                  const std::vector<double> &compliance);
     void add_springs();
-    void set_scaling(const RowMap &rows);
-    void keep_own_blocks(const RowMap &rows);
+    MatrixEntries scale_by_stiffness();
+    void keep_blocks(const MatrixEntries &products);
+    void set_scaling(const MatrixEntries &products);
     void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
     void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
 
@@ -97,24 +108,24 @@ namespace taut
     const Constraints &constraints;
     InterfaceStiffness T;
 
-    // Of all rows by their numbers, the same on all ranks.
-    std::vector<char> is_rigid;    ///< a row of Q
-    std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0
-    std::vector<double> own;       ///< the part of other without further treatment
-    std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, else 0
+    const RowMap *owners = nullptr;
     bool has_springs = false;
     SparseCholesky inverse_T; ///< with springs
 
-    // Of the rows that are kept, by their positions.
-    std::vector<std::size_t> kept; ///< their numbers, ascending
-    MatrixEntries scaled_B;        ///< D^-1 B_r, in the order of the constraints of T
-    SymmetricEntries Q_entries;    ///< of the rigid rows, 1 on the others
+    // Of the rows of blocks(), by their positions.
+    std::vector<std::size_t> kept;  ///< their numbers, ascending
+    std::vector<char> is_rigid;     ///< a row of Q
+    std::vector<double> other;      ///< 1 / F_ii of active constraints outside Q, else 0
+    std::vector<double> stiffness;  ///< 1 / S_i of elastic constraints, else 0
+    std::vector<std::size_t> place; ///< of an owned row
+    MatrixEntries scaled_B;         ///< D^-1 B_r, in the order of the constraints of T
+    SymmetricEntries Q_entries;     ///< of the rigid rows, 1 on the others
     SparseCholesky Q;
 
     // Of one of several ranks, without springs.
-    const RowMap *owners = nullptr;
-    std::unique_ptr<const RowMap> own_rows;
-    std::vector<std::size_t> place; ///< of an owned row among those that are kept
+    std::unique_ptr<const RowMap> own_rows; ///< holds the rows of blocks()
+    MatrixEntries pattern;                  ///< of the products that they follow from
+    std::vector<std::size_t> owned;         ///< rows of the owners then
 
     mutable std::vector<double> motion, force, jump, all, image;
   };

@@ -324,28 +324,31 @@ namespace taut
     return is_solved;
   }
 
-  /// The motions of the rows with these numbers, by them.
+  /// The motions of the rows of the preconditioner's blocks, by their positions there.
   std::vector<LinearForm>
-  MatrixFreeSchurComplement::by_numbers(const std::vector<LinearForm> &null_space,
-                                        const std::vector<std::size_t> &wanted) const
+  MatrixFreeSchurComplement::on_blocks(const std::vector<LinearForm> &null_space,
+                                       const std::vector<std::size_t> &rows_of_blocks) const
   {
-    const SharedRows *const shared = constraints.shared();
-    if (!shared)
+    if (rows().communicator().size() == 1)
       return null_space;
+    std::vector<char> is_own(constraints.size(), 0);
+    for (const std::size_t i : F.owned())
+      is_own[i] = 1;
     MatrixEntries entries;
     for (std::size_t k = 0; k < null_space.size(); ++k)
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
-        if (const unsigned int i = null_space[k].index[e]; shared->is_own(i))
-          entries.add(k, shared->number(i), null_space[k].value[e]);
-    gather(rows().communicator(), entries);
+        if (const unsigned int i = null_space[k].index[e]; is_own[i])
+          entries.add(constraints.number(i), k, null_space[k].value[e]);
+    preconditioner.copy_to_blocks(entries, null_space.size());
     entries.compress();
-    std::vector<char> is_wanted(shared->n_of_all(), 0);
-    for (const std::size_t number : wanted)
-      is_wanted[number] = 1;
     std::vector<LinearForm> result(null_space.size());
+    std::size_t p = 0;
     for (std::size_t e = 0; e < entries.size(); ++e)
-      if (is_wanted[entries.column[e]])
-        result[entries.row[e]].add(entries.column[e], entries.value[e]);
+    {
+      while (rows_of_blocks[p] != static_cast<std::size_t>(entries.row[e]))
+        ++p;
+      result[entries.column[e]].add(static_cast<unsigned int>(p), entries.value[e]);
+    }
     return result;
   }
 
@@ -358,16 +361,15 @@ namespace taut
   {
     prepare(set, shift);
     const RowBlocks blocks = preconditioner.blocks();
-    std::vector<double> all_scales, all_active;
-    constraints.gather(scale(), all_scales);
-    constraints.gather({active.begin(), active.end()}, all_active);
+    const std::vector<double> scales = preconditioner.on_blocks(scale()),
+                              is_active = preconditioner.on_blocks({active.begin(), active.end()});
     const auto divide = [&](std::vector<double> &values)
     {
       for (std::size_t p = 0; p < values.size(); ++p)
-        values[p] = all_active[blocks.rows[p]] > 0. ? values[p] / all_scales[blocks.rows[p]] : 0.;
+        values[p] = is_active[p] > 0. ? values[p] / scales[p] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(by_numbers(null_space, blocks.rows), all_scales,
-                                              all_active, rows(), blocks,
+    const NaturalCoarseProblem coarse_problem(on_blocks(null_space, blocks.rows), scales, is_active,
+                                              rows(), blocks,
                                               [&](std::vector<double> &values)
                                               {
                                                 divide(values);

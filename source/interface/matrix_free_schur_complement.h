@@ -62,8 +62,8 @@ namespace taut
     void set_tolerance(double wanted) override;
 
     const RowMap &rows() const { return F.rows(); }
-    std::vector<LinearForm> by_numbers(const std::vector<LinearForm> &null_space,
-                                       const std::vector<std::size_t> &wanted) const;
+    std::vector<LinearForm> on_blocks(const std::vector<LinearForm> &null_space,
+                                      const std::vector<std::size_t> &rows_of_blocks) const;
     const std::vector<double> &scale() const { return flexibilities.scale(); }
     std::vector<double> scaled(const std::vector<double> &rhs) const;
     void set_solution(const std::vector<double> &scaled_x, std::vector<double> &x) const;

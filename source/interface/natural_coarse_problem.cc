@@ -23,15 +23,6 @@ namespace taut
   {
     constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
-    /// Positions of some rows among all; nowhere for others.
-    std::vector<std::size_t> positions(const std::vector<std::size_t> &rows, const std::size_t n)
-    {
-      std::vector<std::size_t> result(n, nowhere);
-      for (std::size_t p = 0; p < rows.size(); ++p)
-        result[rows[p]] = p;
-      return result;
-    }
-
     /// Sets of vectors of which no two have entries in one block. @p blocks are those of each
     /// vector.
     std::vector<std::vector<std::size_t>> apart(const std::vector<std::vector<std::size_t>> &blocks,
@@ -68,22 +59,26 @@ namespace taut
       const std::function<void(std::vector<double> &)> &solve)
       : rows(rows), G(null_space.size()), scaled_G(null_space.size())
   {
-    const std::vector<std::size_t> position = positions(blocks.rows, active.size()),
-                                   owned = positions(rows.owned(), active.size());
+    // Position of each row among the owned ones.
+    std::vector<std::size_t> owned(blocks.rows.size(), nowhere);
+    std::size_t n_owned = 0;
+    for (std::size_t p = 0; p < owned.size() && n_owned < rows.owned().size(); ++p)
+      if (blocks.rows[p] == rows.owned()[n_owned])
+        owned[p] = n_owned++;
     std::vector<LinearForm> on_blocks(null_space.size());
     std::vector<std::vector<std::size_t>> met(null_space.size());
     for (std::size_t k = 0; k < null_space.size(); ++k)
     {
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
-        const unsigned int i = null_space[k].index[e];
-        if (active[i] == 0. || position[i] == nowhere)
+        const unsigned int p = null_space[k].index[e];
+        if (active[p] == 0.)
           continue;
-        const double value = null_space[k].value[e] * scale[i];
-        on_blocks[k].add(position[i], value);
-        met[k].push_back(blocks.block[position[i]]);
-        if (owned[i] != nowhere)
-          G[k].add(owned[i], value);
+        const double value = null_space[k].value[e] * scale[p];
+        on_blocks[k].add(p, value);
+        met[k].push_back(blocks.block[p]);
+        if (owned[p] != nowhere)
+          G[k].add(owned[p], value);
       }
       std::sort(met[k].begin(), met[k].end());
       met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
@@ -105,7 +100,7 @@ namespace taut
           reached.insert(reached.end(), members[b].begin(), members[b].end());
         std::sort(reached.begin(), reached.end());
         for (const std::size_t p : reached)
-          if (const std::size_t own = owned[blocks.rows[p]]; own != nowhere && values[p] != 0.)
+          if (const std::size_t own = owned[p]; own != nowhere && values[p] != 0.)
             scaled_G[k].add(own, values[p]);
       }
     }

@@ -26,10 +26,9 @@ namespace taut
   class NaturalCoarseProblem
   {
   public:
-    /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns,
-    /// which have the numbers of the rows.
-    /// Only columns of active rows count. @p solve applies Q^-1 to the rows of @p blocks, the owned
-    /// ones among them; zero on rows that are not active.
+    /// Vectors are over the rows of @p blocks, the owned ones among them: @p null_space has a row
+    /// of G in each vector, and @p scale a factor for each of its columns, of which only those of
+    /// active rows count. @p solve applies Q^-1; zero on rows that are not active.
     /// Other functions take vectors on owned rows. All are called by all ranks together.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                          const std::vector<double> &scale, const std::vector<double> &active,

@@ -10,6 +10,7 @@
 #include <Epetra_Util.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -144,16 +145,31 @@ namespace taut
         on_held[owner.borrowed[e]] = owner.received[e];
   }
 
-  void RowMap::add_shares(const double *on_held, double *sums) const
+  /// The result on owned rows of what the ranks that hold a row have there.
+  template <typename Combine>
+  void RowMap::combine(const double *on_held, double *result, const Combine &with) const
   {
     receive(&Neighbour::lent);
     send(on_held, &Neighbour::borrowed);
     for (std::size_t p = 0; p < own.size(); ++p)
-      sums[p] = on_held[own_held[p]];
+      result[p] = on_held[own_held[p]];
     wait();
     for (const Neighbour &holder : neighbours)
       for (std::size_t e = 0; e < holder.lent.size(); ++e)
-        sums[holder.lent[e]] += holder.received[e];
+        result[holder.lent[e]] = with(result[holder.lent[e]], holder.received[e]);
+  }
+
+  void RowMap::add_shares(const double *on_held, double *sums) const
+  {
+    combine(on_held, sums, std::plus<>());
+  }
+
+  void RowMap::take_smallest(std::vector<double> &on_held) const
+  {
+    std::vector<double> smallest(own.size());
+    combine(on_held.data(), smallest.data(),
+            [](const double a, const double b) { return std::min(a, b); });
+    copy_to_holders(smallest.data(), on_held.data());
   }
 
   namespace

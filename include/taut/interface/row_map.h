@@ -49,6 +49,9 @@ namespace taut
     /// Sums over the ranks that hold a row, on the owned rows.
     void add_shares(const double *on_held, double *sums) const;
 
+    /// Each value becomes the smallest of those that the ranks have for its row; on held rows.
+    void take_smallest(std::vector<double> &on_held) const;
+
     /// Position of an owned row among the held ones.
     std::size_t position_of_owned(const std::size_t p) const { return own_held[p]; }
 
@@ -78,6 +81,8 @@ namespace taut
     void receive(Rows rows_of) const;
     void send(const double *values, Rows rows_of) const;
     void wait() const;
+    template <typename Combine>
+    void combine(const double *on_held, double *result, const Combine &with) const;
 
     const Communicator processes;
     std::size_t n;
