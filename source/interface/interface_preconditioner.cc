@@ -41,33 +41,27 @@ namespace taut
                       "'; known are: diagonal, Dirichlet. Correct the name");
   }
 
-  /// On the rows that this rank owns, from a vector over its constraints.
   template <typename Values>
-  std::vector<double> InterfacePreconditioner::of_owned(const Values &of_constraints) const
+  std::vector<double> InterfacePreconditioner::on_blocks_of(const Values &of_constraints) const
   {
-    std::vector<double> result;
+    if (has_all_rows())
+      return {of_constraints.begin(), of_constraints.end()};
+    std::vector<double> of_owned, result(kept.size());
     for (const std::size_t number : owners->owned())
-      result.push_back(of_constraints[constraints.index(number)]);
-    return result;
-  }
-
-  std::vector<double>
-  InterfacePreconditioner::on_blocks_from_owners(const std::vector<double> &values) const
-  {
-    std::vector<double> result(kept.size());
+      of_owned.push_back(of_constraints[constraints.index(number)]);
     if (own_rows)
-      own_rows->copy_to_holders(values.data(), result.data());
+      own_rows->copy_to_holders(of_owned.data(), result.data());
     else if (is_diagonal)
-      result = values;
+      result = of_owned;
     else
-      owners->gather(values, result);
+      owners->gather(of_owned, result);
     return result;
   }
 
   std::vector<double>
   InterfacePreconditioner::on_blocks(const std::vector<double> &of_constraints) const
   {
-    return on_blocks_from_owners(of_owned(of_constraints));
+    return on_blocks_of(of_constraints);
   }
 
   void InterfacePreconditioner::copy_to_blocks(MatrixEntries &of_owned,
@@ -135,8 +129,7 @@ namespace taut
                                          const std::vector<double> &own_diagonal,
                                          const std::vector<double> &own_compliance)
   {
-    const std::vector<double> is_active = on_blocks_from_owners(of_owned(active)),
-                              diagonal = on_blocks(own_diagonal),
+    const std::vector<double> is_active = on_blocks_of(active), diagonal = on_blocks(own_diagonal),
                               compliance = on_blocks(own_compliance);
     other.assign(kept.size(), 0.);
     stiffness.assign(kept.size(), 0.);
@@ -291,6 +284,7 @@ namespace taut
     wanted.insert(wanted.end(), seen.begin(), seen.end());
     sort_unique(wanted);
     RowMap(*owners, wanted).sum_entries(rows_of_blocks, constraints.n_of_all());
+    own_rows.reset(); // until all are new
     kept = owners->owned();
     for (std::size_t e = 0; e < rows_of_blocks.size(); ++e)
       if (seen.count(rows_of_blocks.row[e]) > 0)

@@ -46,8 +46,8 @@ namespace taut
    * others.
    *
    * Without elastic constraints one of several ranks applies it to what its bodies see: the rows of
-   * the blocks of Q with a term on one of them. Otherwise T is factored, and applied to all rows,
-   * on each rank.
+   * the blocks of Q with a term on one of them. Otherwise each
+   * rank has all of B, Q, T and the factor of T, and applies it to all rows.
    */
   class InterfacePreconditioner
   {
@@ -80,6 +80,9 @@ namespace taut
     /// constraints.
     RowBlocks blocks() const;
 
+    /// True if these are all rows, and the constraints of this rank are, too.
+    bool has_all_rows() const { return !own_rows && !is_diagonal && !constraints.shared(); }
+
     /// Values on the rows of blocks(), from a vector over the constraints of this rank; and the
     /// entries there of a matrix, by the numbers of rows, of which each rank has those in the rows
     /// that it owns. Called by all ranks together.
@@ -92,8 +95,7 @@ namespace taut
 
   private:
     template <typename Values>
-    std::vector<double> of_owned(const Values &of_constraints) const;
-    std::vector<double> on_blocks_from_owners(const std::vector<double> &values) const;
+    std::vector<double> on_blocks_of(const Values &of_constraints) const;
     std::size_t position(int number) const;
     void set_rows(const std::vector<char> &active, const std::vector<double> &diagonal,
                   const std::vector<double> &compliance);

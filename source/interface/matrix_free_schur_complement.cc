@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/matrix_free_schur_complement.h"
-#include "base/gather_entries.h"
-#include "complementarity/shared_rows.h"
 #include <taut/base/exceptions.h>
 #include <taut/interface/constraint_operator.h>
 
@@ -329,7 +327,7 @@ namespace taut
   MatrixFreeSchurComplement::on_blocks(const std::vector<LinearForm> &null_space,
                                        const std::vector<std::size_t> &rows_of_blocks) const
   {
-    if (rows().communicator().size() == 1)
+    if (preconditioner.has_all_rows())
       return null_space;
     std::vector<char> is_own(constraints.size(), 0);
     for (const std::size_t i : F.owned())

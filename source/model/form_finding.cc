@@ -107,7 +107,7 @@ namespace taut
                        base.links.end());
       return find_form(base, droppers, parameters, processes);
     };
-    const DropperForm form = shared && part.scene.bodies.empty()
+    const DropperForm form = shared && processes.size() == 1 && part.scene.bodies.empty()
                                  ? shared->forms.find(key(part.scene, parameters), find)
                                  : find();
 

@@ -392,6 +392,7 @@ namespace taut
                       dot(base.gravity, link.direction);
         link.length = length;
       }
+      change = processes.max(change); // all ranks go on, or none
       stalled = change > not_less * least ? stalled + 1 : 0;
       if (change < settled || (change < rounding && stalled > (is_connected ? patience : 0)))
       {

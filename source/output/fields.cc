@@ -3,19 +3,30 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
+#include <taut/substructure/body_traits.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <numeric>
+#include <utility>
 
 namespace taut
 {
   namespace
   {
-    std::string numbered(const std::string &name, const std::size_t number)
+    std::string numbered(const std::string &name, const std::size_t number,
+                         const char *const ending = ".vtu")
     {
       char text[32];
-      std::snprintf(text, sizeof text, "_%05zu.vtu", number);
-      return name + text;
+      std::snprintf(text, sizeof text, "_%05zu", number);
+      return name + text + ending;
+    }
+
+    /// nullptr: the body is drawn by itself.
+    const PartOfBody *part(const Structure &structure, const std::size_t k)
+    {
+      return dynamic_cast<const PartOfBody *>(&structure[k]);
     }
 
     /// Keeps letters, digits, '-' and non-ASCII characters; '_' replaces others.
@@ -84,25 +95,97 @@ namespace taut
             throw EntryError(scene.bodies[i].origin, "its files would be '" + stem +
                                                          "_*.vtu', which are those of another "
                                                          "body; rename one");
-        bodies.push_back({stem, structure.indices_of_body(i), PvdFile(folder + stem + ".pvd"), 0});
+        const std::vector<std::size_t> &parts = structure.indices_of_body(i);
+        BodyFiles files = {stem, PvdFile(folder + stem + ".pvd"), pieces_of(structure, parts)};
+        if (parts.size() > 1)
+        {
+          const Communicator &processes = structure.communicator();
+          std::vector<std::size_t> sizes;
+          processes.gather(files.pieces.size(), sizes);
+          const auto own = sizes.begin() + processes.rank();
+          files.first_piece = std::accumulate(sizes.begin(), own, std::size_t(0));
+          files.n_pieces = std::accumulate(own, sizes.end(), files.first_piece);
+          files.is_joined = files.n_pieces > 1 &&
+                            !processes.any(std::any_of(files.pieces.begin(), files.pieces.end(),
+                                                       [&](const std::vector<std::size_t> &piece) {
+                                                         return !part(structure, piece.front());
+                                                       }));
+        }
+        bodies.push_back(std::move(files));
       }
+  }
+
+  std::vector<std::vector<std::size_t>> Fields::pieces_of(const SceneBodies &structure,
+                                                          const std::vector<std::size_t> &parts)
+  {
+    std::vector<std::vector<std::size_t>> pieces;
+    for (const std::size_t k : parts)
+    {
+      if (k == Structure::elsewhere)
+        continue;
+      const PartOfBody *const own = part(structure, k);
+      const auto with = std::find_if(pieces.begin(), pieces.end(),
+                                     [&](const std::vector<std::size_t> &piece)
+                                     {
+                                       const PartOfBody *const other =
+                                           part(structure, piece.front());
+                                       return own && other && own->is_drawn_with(*other);
+                                     });
+      if (with == pieces.end())
+        pieces.push_back({k});
+      else
+        with->push_back(k);
+    }
+    return pieces;
+  }
+
+  std::string Fields::BodyFiles::piece(const std::size_t p) const
+  {
+    return numbered(n_pieces == 1 ? stem : stem + "_piece" + std::to_string(p), n_frames);
   }
 
   void Fields::write_bodies(const StepView &step)
   {
     for (BodyFiles &body : bodies)
     {
-      const unsigned int number = body.n_frames++;
-      for (std::size_t part = 0; part < body.parts.size(); ++part)
+      write_pieces(step, body);
+      if (step.structure.communicator().is_root())
       {
-        const bool is_whole = body.parts.size() == 1;
-        const std::string frame =
-            numbered(is_whole ? body.stem : body.stem + "_part" + std::to_string(part), number);
-        if (const std::size_t k = body.parts[part]; k != Structure::elsewhere)
-          step.structure[k].write_vtu(folder + frame, displacement(step.reference, step.state, k));
-        if (step.structure.communicator().is_root())
-          body.collection.add(step.state.time, frame, part);
+        if (body.is_joined)
+          body.collection.add(step.state.time, numbered(body.stem, body.n_frames, ".pvtu"));
+        else
+          for (std::size_t p = 0; p < body.n_pieces; ++p)
+            body.collection.add(step.state.time, body.piece(p), p);
       }
+      ++body.n_frames;
+    }
+  }
+
+  void Fields::write_pieces(const StepView &step, const BodyFiles &body) const
+  {
+    for (std::size_t p = 0; p < body.pieces.size(); ++p)
+    {
+      std::vector<std::vector<double>> displacements;
+      for (const std::size_t k : body.pieces[p])
+        displacements.push_back(displacement(step.reference, step.state, k));
+      const std::string own = folder + body.piece(body.first_piece + p);
+      const std::size_t first = body.pieces[p].front();
+      if (body.pieces[p].size() == 1 && !body.is_joined)
+      {
+        step.structure[first].write_vtu(own, displacements.front());
+        continue;
+      }
+      PartOfBody::Files files = {own};
+      if (body.is_joined && body.first_piece + p == 0)
+      {
+        files.joined = folder + numbered(body.stem, body.n_frames, ".pvtu");
+        for (std::size_t q = 0; q < body.n_pieces; ++q)
+          files.pieces.push_back(body.piece(q));
+      }
+      std::vector<PartOfBody::Drawn> parts;
+      for (std::size_t i = 0; i < displacements.size(); ++i)
+        parts.push_back({part(step.structure, body.pieces[p][i]), &displacements[i]});
+      part(step.structure, first)->write_vtu(files, parts);
     }
   }
 

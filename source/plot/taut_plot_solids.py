@@ -29,9 +29,21 @@ def unpacked(text):
     return b"".join(zlib.decompress(blocks[a:b]) for a, b in zip(ends[:-1], ends[1:]))
 
 
+def joined(pieces):
+    """The arrays of several pieces as those of one."""
+    arrays = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    for name, size_of in (("connectivity", "positions"), ("offsets", "connectivity")):
+        before = np.cumsum([0] + [len(piece[size_of]) for piece in pieces[:-1]])
+        arrays[name] = np.concatenate([piece[name] + first for piece, first in zip(pieces, before)])
+    return arrays
+
+
 def read_arrays(path):
-    """The arrays of a VTU file by name; points are 'positions'."""
+    """The arrays of a VTU or PVTU file by name; points are 'positions'."""
     try:
+        if path.endswith(".pvtu"):
+            pieces = [node.get("Source") for node in xml.parse(path).iter("Piece")]
+            return joined([read_arrays(os.path.join(os.path.dirname(path), piece)) for piece in pieces])
         with open(path, "rb") as file:
             head, mark, data = file.read().partition(b'<AppendedData encoding="raw">\n_')
         root = xml.fromstring(head + b"</VTKFile>" if mark else head)
@@ -47,7 +59,7 @@ def read_arrays(path):
             n = int(node.get("NumberOfComponents") or 1)
             arrays[node.get("Name") or "positions"] = values.reshape(-1, n) if n > 1 else values
         return arrays
-    except (OSError, xml.ParseError, KeyError, TypeError, ValueError, struct.error, zlib.error) as error:
+    except (OSError, xml.ParseError, KeyError, IndexError, TypeError, ValueError, struct.error, zlib.error) as error:
         raise UserError(f"cannot read '{path}': {error}") from error
 
 

@@ -49,7 +49,8 @@ namespace taut
       const auto begins = [&](const char *const stem) { return name.rfind(stem, 0) == 0; };
       const std::string ending = fs::path(name).extension().string();
       return names.count(name) || (ending == ".vtu" && (begins("wires_") || begins("links_"))) ||
-             ((ending == ".vtu" || ending == ".pvd") && (begins("body_") || begins("contact_"))) ||
+             ((ending == ".vtu" || ending == ".pvtu" || ending == ".pvd") &&
+              (begins("body_") || begins("contact_"))) ||
              (ending == ".csv" && begins("contact_"));
     }
 

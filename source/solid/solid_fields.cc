@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "base/memory.h"
-#include "base/write_file.h"
 #include <taut/solid/elastic_solid.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -14,7 +12,6 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace taut
 {
@@ -43,7 +40,8 @@ namespace taut
   class ElasticSolid<dim>::StressField
   {
   public:
-    StressField(const ElasticSolid<dim> &solid, const dealii::Vector<double> &U);
+    StressField(const ElasticSolid<dim> &solid, const std::vector<Cell> &cells,
+                const dealii::Vector<double> &U);
 
     /// The tensor, principal values and von Mises' stress as a field of output.
     void add_to(dealii::DataOut<dim> &data);
@@ -56,6 +54,7 @@ namespace taut
     std::vector<double> components(const Stress &s) const;
 
     const ElasticSolid<dim> &solid;
+    const std::vector<Cell> &cells;
     const SolidMesh<dim> &mesh;
     const std::unique_ptr<dealii::FiniteElement<dim>> node_element;
     std::vector<unsigned int> node_of_displacement; ///< of each node, the first DoF of a cell there
@@ -69,8 +68,9 @@ namespace taut
 
   template <int dim>
   ElasticSolid<dim>::StressField::StressField(const ElasticSolid<dim> &solid,
+                                              const std::vector<Cell> &cells,
                                               const dealii::Vector<double> &U)
-      : solid(solid), mesh(*solid.mesh), node_element(discontinuous(mesh)),
+      : solid(solid), cells(cells), mesh(*solid.mesh), node_element(discontinuous(mesh)),
         handler(mesh.dof_handler().get_triangulation())
   {
     const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
@@ -138,7 +138,7 @@ namespace taut
     std::map<std::pair<dealii::types::global_dof_index, dealii::types::material_id>, Sum> at_node;
     const auto key = [&](const auto &cell, const std::size_t n)
     { return std::make_pair(index[node_of_displacement[n]], cell->material_id()); };
-    for (const Cell &cell : solid.cells())
+    for (const Cell &cell : cells)
     {
       at_points.reinit(cell);
       cell->get_dof_indices(index);
@@ -153,7 +153,7 @@ namespace taut
         ++sum.n;
       }
     }
-    for (const Cell &cell : solid.cells())
+    for (const Cell &cell : cells)
     {
       cell->get_dof_indices(index);
       stresses.emplace_back();
@@ -188,7 +188,7 @@ namespace taut
     values.reinit(handler.n_dofs());
     std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
     auto of_cell = stresses.begin();
-    for (const Cell &own : solid.cells())
+    for (const Cell &own : cells)
     {
       const Cell cell(&handler.get_triangulation(), own->level(), own->index(), &handler);
       cell->get_dof_indices(index);
@@ -204,29 +204,22 @@ namespace taut
   }
 
   template <int dim>
-  void ElasticSolid<dim>::write_vtu(const std::string &path, const std::vector<double> &U) const
+  std::shared_ptr<const void>
+  ElasticSolid<dim>::add_fields(const dealii::Vector<double> &all, const std::vector<Cell> &cells,
+                                dealii::DataOut<dim, dim> &data,
+                                std::map<std::string, std::string> &units) const
   {
-    using namespace dealii::DataComponentInterpretation;
-    const dealii::Vector<double> all = this->all_dofs(U);
-    StressField stress(*this, all);
-    dealii::DataOut<dim> data;
-    data.add_data_vector(
-        mesh->dof_handler(), all, std::vector<std::string>(dim, "displacement"),
-        std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
-    stress.add_to(data);
-    this->show_own_cells(data);
-    data.build_patches(mesh->mapping(), mesh->degree());
-    dealii::DataOutBase::VtkFlags flags;
-    flags.print_date_and_time = false; // the same bytes from run to run
-    flags.physical_units = {{"displacement", "m"}};
-    for (const std::string &name : stress.field_names())
-      flags.physical_units[name] = "Pa";
-    data.set_flags(flags);
-    std::ostringstream file;
-    data.write_vtu(file);
-    write_file(path, whole_text(file));
+    const auto stress = std::make_shared<StressField>(*this, cells, all);
+    stress->add_to(data);
+    for (const std::string &name : stress->field_names())
+      units[name] = "Pa";
+    return stress;
   }
 
-  template void ElasticSolid<2>::write_vtu(const std::string &, const std::vector<double> &) const;
-  template void ElasticSolid<3>::write_vtu(const std::string &, const std::vector<double> &) const;
+  template std::shared_ptr<const void>
+  ElasticSolid<2>::add_fields(const dealii::Vector<double> &, const std::vector<Cell> &,
+                              dealii::DataOut<2> &, std::map<std::string, std::string> &) const;
+  template std::shared_ptr<const void>
+  ElasticSolid<3>::add_fields(const dealii::Vector<double> &, const std::vector<Cell> &,
+                              dealii::DataOut<3> &, std::map<std::string, std::string> &) const;
 } // namespace taut

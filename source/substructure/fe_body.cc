@@ -378,56 +378,89 @@ namespace taut
   dealii::Vector<double> FEBody<dim>::all_dofs(const std::vector<double> &U) const
   {
     dealii::Vector<double> result(handler.n_dofs());
-    for (std::size_t i = 0; i < U.size(); ++i)
-      result[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
+    set_all_dofs(U, result);
     return result;
   }
 
   template <int dim>
-  void FEBody<dim>::show_own_cells(dealii::DataOut<dim, dim> &data) const
+  void FEBody<dim>::set_all_dofs(const std::vector<double> &U, dealii::Vector<double> &all) const
   {
-    if (own_dofs.empty())
-      return;
+    for (std::size_t i = 0; i < U.size(); ++i)
+      all[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
+  }
+
+  /// Restricts the output to these cells, in ascending order.
+  template <int dim>
+  void FEBody<dim>::show_cells(const std::vector<Cell> &cells,
+                               dealii::DataOut<dim, dim> &data) const
+  {
     using TriaCell = typename dealii::Triangulation<dim>::cell_iterator;
-    const auto at = [this](const typename std::vector<Cell>::const_iterator &own,
-                           const dealii::Triangulation<dim> &mesh)
+    const auto at = [&cells](const typename std::vector<Cell>::const_iterator &shown,
+                             const dealii::Triangulation<dim> &mesh)
     {
-      return own == own_cells.end() ? TriaCell(mesh.end())
-                                    : TriaCell(&mesh, (*own)->level(), (*own)->index());
+      return shown == cells.end() ? TriaCell(mesh.end())
+                                  : TriaCell(&mesh, (*shown)->level(), (*shown)->index());
     };
     data.set_cell_selection(
-        [this, at](const dealii::Triangulation<dim> &mesh) { return at(own_cells.begin(), mesh); },
-        [this, at](const dealii::Triangulation<dim> &mesh, const TriaCell &cell)
+        [&cells, at](const dealii::Triangulation<dim> &mesh) { return at(cells.begin(), mesh); },
+        [&cells, at, this](const dealii::Triangulation<dim> &mesh, const TriaCell &cell)
         {
-          const Cell own(&mesh, cell->level(), cell->index(), &handler);
-          return at(std::upper_bound(own_cells.begin(), own_cells.end(), own), mesh);
+          const Cell shown(&mesh, cell->level(), cell->index(), &handler);
+          return at(std::upper_bound(cells.begin(), cells.end(), shown), mesh);
         });
   }
 
   template <int dim>
   void FEBody<dim>::write_vtu(const std::string &path, const std::vector<double> &U) const
   {
-    const bool is_vector = handler.get_fe().n_components() == dim && dim > 1;
-    using Data = dealii::DataComponentInterpretation::DataComponentInterpretation;
+    write_vtu(Files{path}, {{this, &U}});
+  }
+
+  template <int dim>
+  bool FEBody<dim>::is_drawn_with(const PartOfBody &other) const
+  {
+    const auto *const body = dynamic_cast<const FEBody *>(&other);
+    return body && &body->handler == &handler;
+  }
+
+  template <int dim>
+  void FEBody<dim>::write_vtu(const Files &files, const std::vector<Drawn> &parts) const
+  {
+    dealii::Vector<double> all(handler.n_dofs());
+    std::vector<Cell> cells;
+    for (const Drawn &drawn : parts)
+    {
+      const auto &part = static_cast<const FEBody &>(*drawn.part);
+      part.set_all_dofs(*drawn.U, all);
+      cells.insert(cells.end(), part.own_cells.begin(), part.own_cells.end());
+    }
+    std::sort(cells.begin(), cells.end());
+
+    using namespace dealii::DataComponentInterpretation;
+    const unsigned int n = handler.get_fe().n_components();
     dealii::DataOut<dim> data;
-    data.attach_dof_handler(handler);
-    const dealii::Vector<double> all = all_dofs(U);
     data.add_data_vector(
-        all, std::vector<std::string>(handler.get_fe().n_components(), "displacement"),
-        dealii::DataOut<dim>::type_dof_data,
-        std::vector<Data>(handler.get_fe().n_components(),
-                          is_vector
-                              ? dealii::DataComponentInterpretation::component_is_part_of_vector
-                              : dealii::DataComponentInterpretation::component_is_scalar));
-    show_own_cells(data);
-    data.build_patches(mapping, handler.get_fe().degree);
+        handler, all, std::vector<std::string>(n, "displacement"),
+        std::vector<DataComponentInterpretation>(
+            n, n == dim && dim > 1 ? component_is_part_of_vector : component_is_scalar));
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
     flags.physical_units["displacement"] = "m";
+    const std::shared_ptr<const void> fields = add_fields(all, cells, data, flags.physical_units);
+    show_cells(cells, data);
+    data.build_patches(mapping, handler.get_fe().degree);
     data.set_flags(flags);
-    std::ostringstream file;
+    std::ostringstream file, joined;
     data.write_vtu(file);
-    write_file(path, whole_text(file));
+    write_file(files.own, whole_text(file));
+    if (files.joined.empty())
+      return;
+    data.write_pvtu_record(joined, files.pieces);
+    std::string text = whole_text(joined);
+    const std::size_t begin = text.find("<!--"), end = text.find("-->"); // around the date
+    if (begin < end && end != std::string::npos)
+      text.erase(begin, end + 4 - begin);
+    write_file(files.joined, text);
   }
 
   template class FEBody<1>;

@@ -10,7 +10,7 @@ namespace taut
 {
   std::vector<std::size_t> Structure::add(const std::vector<NewBody> &made)
   {
-    std::vector<std::size_t> index(made.size(), elsewhere);
+    std::vector<std::shared_ptr<Substructure>> own(made.size());
     std::vector<double> n_dofs(made.size(), 0.);
     processes.agree(
         [&]
@@ -20,20 +20,23 @@ namespace taut
             const auto &[name, owner, make] = made[i];
             if (owner != processes.rank())
               continue;
-            std::shared_ptr<Substructure> body = make ? make() : nullptr;
-            if (!body)
+            own[i] = make ? make() : nullptr;
+            if (!own[i])
               throw UserError("body '" + name + "': the function that makes it returns none");
-            body->check_consistency();
-            index[i] = substructures.size();
-            n_dofs[i] = body->n_dofs();
-            substructures.push_back(std::move(body));
+            own[i]->check_consistency();
+            n_dofs[i] = own[i]->n_dofs();
           }
         });
     processes.sum(n_dofs);
+    std::vector<std::size_t> index(made.size(), elsewhere);
     for (std::size_t i = 0; i < made.size(); ++i)
     {
-      if (index[i] != elsewhere)
+      if (own[i])
+      {
+        index[i] = substructures.size();
+        substructures.push_back(std::move(own[i]));
         numbers.push_back(bodies.size());
+      }
       bodies.push_back({made[i].name, static_cast<std::size_t>(n_dofs[i])});
     }
     return index;

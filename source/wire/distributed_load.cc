@@ -92,7 +92,7 @@ namespace taut
       const double h = wire.nodes[e + 1] - wire.nodes[e];
       element.begin = wire.nodes[e];
       element.length = h;
-      element.n_pieces = stands ? LoadIntegral::fine_pieces : 1;
+      element.n_pieces = stands && !magnitude.is_constant() ? LoadIntegral::fine_pieces : 1;
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         element.places[q] = wire.nodes[e] + h * rule.point(q)[0];

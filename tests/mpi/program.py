@@ -7,9 +7,15 @@ import re
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as xml
+
+import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "source/plot"))
+sys.dont_write_bytecode = True
 from checks import entries, errors, largest_difference, on_ranks, parse
+from taut_plot_solids import read_arrays
 
 arguments = parse(__doc__, "program", "mpiexec", "prm", ranks=(2, "of the scenes; words and errors are those of two ranks"))
 
@@ -54,8 +60,25 @@ def same_text(a, b):
 
 
 def file_names(folder):
-    """Those of the parts of a body as those of the whole."""
-    return sorted({re.sub(r"_part\d+", "", path.name) for path in folder.rglob("*")})
+    """Those of the pieces of a body, and the file that joins them, as those of the whole."""
+    return sorted({re.sub(r"_piece\d+", "", path.name).replace(".pvtu", ".vtu") for path in folder.rglob("*")})
+
+
+def last_displacements(collection):
+    """Of the points of all cells of a body, in the order of their places."""
+    file = list(xml.parse(collection).iter("DataSet"))[-1].get("file")
+    arrays = read_arrays(str(collection.parent / file))
+    order = np.lexsort(np.round(arrays["positions"].astype(float), 5).T)
+    return len(arrays["types"]), arrays["displacement"][order]
+
+
+def check_pieces(name, one, other):
+    """The pieces of a body that ranks write are the picture that one process writes."""
+    for collection in sorted((one / "fields").glob("body_*.pvd")):
+        (n, expected), (n_found, found) = map(last_displacements, (collection, other / "fields" / collection.name))
+        size = np.abs(expected).max()
+        if n_found != n or found.shape != expected.shape or not np.abs(found - expected).max() <= 1e-6 * size:
+            errors.append(f"{name}: {collection.name} shows {n_found} cells, {n} on one process, or other displacements")
 
 
 def check_scene(scene, folder):
@@ -79,6 +102,7 @@ def check_scene(scene, folder):
     for ranks in several:
         if file_names(outputs[ranks]) != names:
             errors.append(f"{scene.stem} on {ranks} ranks: other files")
+        check_pieces(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
         for name in names:
             if name.endswith(".csv") and name != "certificate.csv":
                 difference = largest_difference(one / name, outputs[ranks] / name)

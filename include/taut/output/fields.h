@@ -19,8 +19,9 @@ namespace taut
    * Their data are displacements, name, number and part. links_NNNNN.vtu has each link as a line
    * between its ends, or as a point if one end is the ground. Its data are displacement, force,
    * gap, whether the link is open, and its name; a sliding contact is in its present place.
-   * wires.pvd and links.pvd join the files in time. A plugin's body with a picture has files
-   * `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written by its owner.
+   * wires.pvd and links.pvd join the files in time. A body with a picture has files
+   * `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written by its owner; if it is cut, each rank
+   * writes its parts, and `body_<name>_NNNNN.pvtu` joins them.
    */
   class Fields : public Observer
   {
@@ -71,14 +72,22 @@ namespace taut
     std::size_t link_displacement = 0, force = 0, gap = 0, open = 0;
     PvdFile wire_collection, link_collection;
 
-    /// A custom body with a picture.
+    /// A custom body with a picture. Parts of a rank that can be drawn together are one piece,
+    /// with one file.
     struct BodyFiles
     {
       std::string stem;
-      std::vector<std::size_t> parts; ///< on this rank, or Structure::elsewhere
-      PvdFile collection;             ///< on the root
+      PvdFile collection;                           ///< on the root
+      std::vector<std::vector<std::size_t>> pieces; ///< on this rank
+      std::size_t first_piece = 0, n_pieces = 1;    ///< of all ranks
+      bool is_joined = false;                       ///< by a .pvtu file
       std::size_t n_frames = 0;
+
+      std::string piece(std::size_t p) const; ///< name of its files
     };
+    static std::vector<std::vector<std::size_t>> pieces_of(const SceneBodies &structure,
+                                                           const std::vector<std::size_t> &parts);
+    void write_pieces(const StepView &step, const BodyFiles &body) const;
     std::vector<BodyFiles> bodies;
   };
 } // namespace taut

@@ -116,12 +116,16 @@ namespace taut
 
     bool has_definite_mass() const override { return options.mass != SolidMass::reduced; }
 
-    /// Writes displacements, stresses [Pa], principal stresses, the largest first, and von Mises'
-    /// stress. Stresses are from the Gauss points of least error (J. Barlow, Int. J. Numer. Meth.
-    /// Engng 10 (1976)), averaged at the nodes among cells of one material.
-    void write_vtu(const std::string &path, const std::vector<double> &U) const override;
-
     Straining straining(const std::vector<double> &U) const override;
+
+  protected:
+    /// Stresses [Pa], principal stresses, the largest first, and von Mises' stress. Stresses are
+    /// from the Gauss points of least error (J. Barlow, Int. J. Numer. Meth. Engng 10 (1976)),
+    /// averaged at the nodes among cells of one material.
+    std::shared_ptr<const void>
+    add_fields(const dealii::Vector<double> &all, const std::vector<Cell> &cells,
+               dealii::DataOut<dim, dim> &data,
+               std::map<std::string, std::string> &units) const override;
 
   private:
     struct Assembled;

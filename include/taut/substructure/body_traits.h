@@ -7,6 +7,7 @@
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -102,6 +103,34 @@ namespace taut
 
     /// At a displacement U from the undeformed body [m].
     virtual Straining straining(const std::vector<double> &U) const = 0;
+  };
+
+  /// A second base of a Substructure that may be one part of a body that is cut, so that a rank
+  /// draws all of its parts of the body in one file.
+  class PartOfBody
+  {
+  public:
+    virtual ~PartOfBody() = default;
+
+    struct Drawn
+    {
+      const PartOfBody *part;
+      const std::vector<double> *U; ///< displacement from the undeformed body
+    };
+
+    /// Names of files without a folder, but for that of the first.
+    struct Files
+    {
+      std::string own;                      ///< path of the .vtu file
+      std::string joined = {};              ///< path of the .pvtu file; empty: none is written
+      std::vector<std::string> pieces = {}; ///< the .vtu files of all ranks, which it joins
+    };
+
+    /// True if one write_vtu() may draw both.
+    virtual bool is_drawn_with(const PartOfBody &other) const = 0;
+
+    /// Writes parts of one body, this one among them, as Substructure::write_vtu().
+    virtual void write_vtu(const Files &files, const std::vector<Drawn> &parts) const = 0;
   };
 
   /// A second base of a Substructure with inner constraints that move with it, such as a rigid

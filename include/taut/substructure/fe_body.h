@@ -3,6 +3,7 @@
 #define taut_fe_body_h
 
 #include <taut/base/lasting.h>
+#include <taut/substructure/body_traits.h>
 #include <taut/substructure/substructure.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -15,6 +16,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -38,7 +40,7 @@ namespace taut
    * is a displacement along Options::direction.
    */
   template <int dim>
-  class FEBody : public Substructure
+  class FEBody : public Substructure, public PartOfBody
   {
   public:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
@@ -139,15 +141,28 @@ namespace taut
     bool has_fields() const override { return true; }
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 
+    /// Parts are drawn together if they have the same DoFHandler.
+    bool is_drawn_with(const PartOfBody &other) const override;
+    void write_vtu(const Files &files, const std::vector<Drawn> &parts) const override;
+
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
 
   protected:
-    /// Restricts the output to the cells of this part.
-    void show_own_cells(dealii::DataOut<dim, dim> &data) const;
+    /// Adds fields beside the displacement for write_vtu(), and their units, from all_dofs() and
+    /// the cells of all parts that are drawn. What it returns lives as long as the output.
+    virtual std::shared_ptr<const void> add_fields(const dealii::Vector<double> &,
+                                                   const std::vector<Cell> &,
+                                                   dealii::DataOut<dim, dim> &,
+                                                   std::map<std::string, std::string> &) const
+    {
+      return nullptr;
+    }
 
   private:
     class Load;
 
+    void set_all_dofs(const std::vector<double> &U, dealii::Vector<double> &all) const;
+    void show_cells(const std::vector<Cell> &cells, dealii::DataOut<dim, dim> &data) const;
     void set_matrix(const dealii::SparseMatrix<double> &source, SymmetricMatrix &target) const;
     void condense(const dealii::Vector<double> &P, std::vector<double> &result) const;
     std::vector<std::vector<double>> candidates(const Options &options) const;

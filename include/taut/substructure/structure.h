@@ -56,8 +56,8 @@ namespace taut
     /**
      * Adds substructures, which their owners make at the same time. Called by all ranks together.
      * Returns the index of each of them on its owner, and `elsewhere` on other ranks. Throws on all
-     * ranks what a `make` throws, and UserError for no body or a body that is not consistent, see
-     * Substructure::check_consistency().
+     * ranks what a `make` of the first rank with an error throws, and UserError for no body or a
+     * body that is not consistent, see Substructure::check_consistency(); then none is added.
      */
     std::vector<std::size_t> add(const std::vector<NewBody> &made);
 
