@@ -35,7 +35,7 @@ namespace taut
         for (std::size_t i = 0; i < n_begin; ++i)
         {
           const double a = end * i / n_begin, b = end * (i + 1) / n_begin;
-          add_cells(a, b, integral(a, b), tolerance, most_halvings);
+          add_cells(a, b, integral(a, b), tolerance, most_halvings, has_details(a, b, tolerance));
         }
         find_range();
       }
@@ -65,6 +65,7 @@ namespace taut
     private:
       static constexpr std::size_t n_begin = 256; ///< of the first, equal cells
       static constexpr unsigned int most_halvings = 40;
+      static constexpr std::size_t n_looks = 16; ///< parts in which each is looked at
       static constexpr double exactness = 1e-14; ///< of a cell, over the whole way
       static constexpr int n_samples = 8;        ///< of the speed in a cell
 
@@ -87,17 +88,41 @@ namespace taut
             [this](const double t) { return speed(t); }, a, b);
       }
 
+      /// Whether the parts of a cell show more than the whole: a pulse down to a ten-thousandth of
+      /// the way's time meets a point of one of them.
+      bool has_details(const double a, const double b, const double tolerance) const
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < n_looks; ++i)
+          sum += integral(a + (b - a) * i / n_looks, a + (b - a) * (i + 1) / n_looks);
+        return std::fabs(sum - integral(a, b)) > tolerance;
+      }
+
+      /// Whether the speed jumps between an end and the first point of Gauss: its change there is
+      /// more than that up to the second point, which is four times as far away.
+      bool jumps_at(const double end, const double length) const
+      {
+        constexpr double first = .0254, second = .1292, same = 1e-9;
+        const double there = speed(end), near = speed(end + first * length),
+                     far = speed(end + second * length);
+        return std::fabs(there - near) > 3. * std::fabs(far - near) + same * std::fabs(near);
+      }
+
+      /// @p has_details: the parts that are looked at become cells, at least.
       void add_cells(const double a, const double b, const double whole, const double tolerance,
-                     const unsigned int halvings)
+                     const unsigned int halvings, const bool has_details)
       {
         const double middle = .5 * (a + b), first = integral(a, middle), last = integral(middle, b);
-        if (std::fabs(first + last - whole) <= tolerance || halvings == 0)
+        const bool is_large =
+            has_details && ((std::size_t(1) << (most_halvings - halvings)) < n_looks ||
+                            jumps_at(a, b - a) || jumps_at(b, a - b));
+        if ((!is_large && std::fabs(first + last - whole) <= tolerance) || halvings == 0)
         {
           cells.push_back({b, cells.back().way + (first + last)});
           return;
         }
-        add_cells(a, middle, first, tolerance, halvings - 1);
-        add_cells(middle, b, last, tolerance, halvings - 1);
+        add_cells(a, middle, first, tolerance, halvings - 1, has_details);
+        add_cells(middle, b, last, tolerance, halvings - 1, has_details);
       }
 
       double outside(const double a, const double b) const

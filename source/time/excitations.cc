@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time/excitations.h"
+#include "base/unlike_weights.h"
 #include <taut/base/exceptions.h>
 #include <taut/interface/geometry.h>
 
@@ -41,6 +42,11 @@ namespace taut
     constexpr std::size_t window = 40;
     constexpr double lost_area = .02, lost_range = .1;
 
+    /// The same of one pulse inside of a step: it exceeds both ends by this multiple of how much
+    /// the ends around it bend, of which a smooth curve exceeds them by an eighth and a kink by a
+    /// half. Between what steps show it is a surprise, and may alone close a contact.
+    constexpr double pulse_over_bend = 4., area_of_pulse = .005, range_of_pulse = .02;
+
     /// Steps on both sides of a feature, and halvings, in the search of a step that sees it.
     constexpr double around = 2.;
     constexpr int most_halvings = 16;
@@ -49,24 +55,28 @@ namespace taut
     class Losses
     {
     public:
-      /// @p at_rest is the value at the start of the run.
-      Losses(const Excitation &excitation, const double at_rest, const double start,
-             const double step, const long n_steps, const long n_samples)
+      /// @p at_rest is the value in balance at the start of the run. With @p begins the load is not
+      /// in balance there: it comes with the first step, whose end alone a scheme sees.
+      Losses(const Excitation &excitation, const double at_rest, const bool begins,
+             const double start, const double step, const long n_steps, const long n_samples)
           : excitation(excitation), at_start(at_rest), start(start), step(step), n_steps(n_steps),
-            n_samples(n_samples)
+            n_samples(n_samples), begins(begins)
       {
         last = excitation.at(start) - at_start;
         least = most = last;
         for (long m = 0; m < n_steps; ++m)
           add_step(m);
+        take_pulse(n_steps - 1, 0.);
       }
 
-      bool sees_all() const { return !loses_area() && !loses_range(); }
+      bool sees_all() const { return !loses_area() && !loses_range() && !loses_pulse(); }
 
       /// Where most is lost: a width and a time.
       std::pair<double, double> narrowest() const
       {
-        return width_and_time(loses_range() ? step_of_excursion : step_of_loss);
+        return width_and_time(loses_range()  ? step_of_excursion
+                              : loses_area() ? step_of_loss
+                                             : step_of_pulse);
       }
 
     private:
@@ -76,6 +86,24 @@ namespace taut
         return !excitation.is_load && excursion > lost_range * (most - least);
       }
 
+      bool loses_pulse() const
+      {
+        return excitation.is_load ? pulse > area_of_pulse * largest_area
+                                  : pulse > range_of_pulse * (most - least);
+      }
+
+      /// Looks at a step once it is known how much the ends bend behind it.
+      void take_pulse(const long m, const double bend)
+      {
+        const double size = excitation.is_load ? last_loss : last_outside;
+        if (last_outside > pulse_over_bend * std::max(last_bend, bend) && size > pulse)
+        {
+          pulse = size;
+          step_of_pulse = m;
+        }
+        last_bend = bend;
+      }
+
       double value(const long m, const long k) const
       {
         return excitation.at(start + (m + static_cast<double>(k) / n_samples) * step) - at_start;
@@ -83,11 +111,12 @@ namespace taut
 
       void add_step(const long m)
       {
-        double area = 0., size = 0., before = last, low = last, high = last;
+        double area = 0., moment = 0., size = 0., before = last, low = last, high = last;
         for (long k = 1; k <= n_samples; ++k)
         {
-          const double now = value(m, k);
-          area += .5 * (before + now) / n_samples;
+          const double now = value(m, k), mean = .5 * (before + now) / n_samples;
+          area += mean;
+          moment += mean * ((k - .5) / n_samples - .5);
           size += .5 * (std::fabs(before) + std::fabs(now)) / n_samples;
           before = now;
           low = std::min(low, now);
@@ -102,8 +131,18 @@ namespace taut
         }
         least = std::min(least, low);
         most = std::max(most, high);
-        const double loss = std::fabs(area - .5 * (last + before));
+        if (m > 0)
+          take_pulse(m - 1, std::fabs(end_before - 2. * last + before));
+        end_before = last;
+        if (m == 0 && begins)
+          last = 0.;
+        // Opposite pulses in a step leave a change of the place, as a pulse of the size of their
+        // moment over half of a step.
+        const double loss = std::max(std::fabs(area - .5 * (last + before)),
+                                     2. * std::fabs(moment - (before - last) / 12.));
         last = before;
+        last_loss = loss;
+        last_outside = outside;
         if (loss > largest_of_step)
         {
           largest_of_step = loss;
@@ -147,11 +186,14 @@ namespace taut
       const Excitation &excitation;
       const double at_start, start, step;
       const long n_steps, n_samples; ///< of the run, and of a step
+      const bool begins;
       double last = 0.;
       double least = 0., most = 0., excursion = 0.;
       double losses = 0., sizes = 0.; ///< in the last steps
       double largest_loss = 0., largest_area = 0., largest_of_step = 0.;
       long step_of_excursion = 0, step_of_loss = 0;
+      double end_before = 0., last_loss = 0., last_outside = 0., last_bend = 0., pulse = 0.;
+      long step_of_pulse = 0;
       std::array<std::array<double, 2>, window> of_steps =
           {}; ///< losses and areas of the last ones
     };
@@ -162,15 +204,12 @@ namespace taut
     /// The sum of the forces, each with a weight of its own: opposite ones do not cancel.
     double weighted_sum(const TimeLoad &load, const double t, std::vector<double> &P)
     {
-      constexpr double golden = 0.61803398874989485;
       std::fill(P.begin(), P.end(), 0.);
       load.add(t, P);
-      double sum = 0., weight = 1.;
+      double sum = 0.;
+      UnlikeWeights weights;
       for (const double force : P)
-      {
-        sum += weight * force;
-        weight = weight > 1. ? weight - golden : weight + 1. - golden;
-      }
+        sum += weights.next() * force;
       return sum;
     }
 
@@ -223,11 +262,12 @@ namespace taut
 
   namespace
   {
-    UnseenFeature look_for(const Excitation &excitation, const double start, const double step,
-                           const long n_steps, const long n_samples)
+    UnseenFeature look_for(const Excitation &excitation, const bool is_balanced, const double start,
+                           const double step, const long n_steps, const long n_samples)
     {
-      const double at_start = excitation.at(start);
-      const Losses losses(excitation, at_start, start, step, n_steps, n_samples);
+      const bool begins = excitation.is_load && !is_balanced;
+      const double at_rest = begins ? 0. : excitation.at(start);
+      const Losses losses(excitation, at_rest, begins, start, step, n_steps, n_samples);
       if (losses.sees_all())
         return {};
       UnseenFeature result{excitation.name, excitation.origin};
@@ -240,7 +280,8 @@ namespace taut
       {
         result.longest_step *= .5;
         const long n = std::max(1L, std::lround(length / result.longest_step));
-        if (Losses(excitation, at_start, first, result.longest_step, n, samples_in_step(n, 1))
+        if (Losses(excitation, at_rest, begins && first == start, first, result.longest_step, n,
+                   samples_in_step(n, 1))
                 .sees_all())
           break;
       }
@@ -249,8 +290,8 @@ namespace taut
   } // namespace
 
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
-                                    const Communicator &processes, const double start,
-                                    const double step, const long n_steps)
+                                    const Communicator &processes, const bool is_balanced,
+                                    const double start, const double step, const long n_steps)
   {
     UnseenFeature narrowest;
     if (n_steps < 1 || n_steps > most_steps)
@@ -260,7 +301,8 @@ namespace taut
       if (!excitation.is_costly)
         try
         {
-          const UnseenFeature own = look_for(excitation, start, step, n_steps, n_samples);
+          const UnseenFeature own =
+              look_for(excitation, is_balanced, start, step, n_steps, n_samples);
           if (own.width < narrowest.width)
             narrowest = own;
         }

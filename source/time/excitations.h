@@ -46,15 +46,18 @@ namespace taut
    * sample of their own and runs of more than ten million steps are not searched.
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
-   * between the ends of steps, both from the value at the start. A load is seen if their difference
-   * in forty steps is at most 2 % of the largest area in forty steps. So a jump inside a step is
-   * seen: it is late by a part of a step. Of a sine the thirteenth of a period is seen. A place
-   * also has to stay within its values at both ends of each step, by a tenth of its range. Called
-   * by all ranks together.
+   * between the ends of steps, and so their moments about the middle of the step, which opposite
+   * pulses have. They count from the value at the start if it @p is_balanced there; otherwise a
+   * load comes with the first step, and its value at the start counts for nothing. A load is seen
+   * if the differences in forty steps are at most 2 % of the largest area in forty steps. So a jump
+   * inside a step is seen: it is late by a part of a step. Of a sine the thirteenth of a period is
+   * seen. A place also has to stay within its values at both ends of each step, by a tenth of its
+   * range. A pulse inside of a step, which the ends around it do not announce, may have 0.5 % of
+   * that area, or 2 % of that range. Called by all ranks together.
    */
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
-                                    const Communicator &processes, double start, double step,
-                                    long n_steps);
+                                    const Communicator &processes, bool is_balanced, double start,
+                                    double step, long n_steps);
 } // namespace taut
 
 #endif

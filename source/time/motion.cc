@@ -554,7 +554,8 @@ namespace taut
     if (!unseen)
       unseen = std::make_unique<UnseenFeature>(
           parts ? find_unseen_feature(excitations(structure, constraints), structure.communicator(),
-                                      initial->state.time, options.step, parts->control.n_steps())
+                                      options.start == Start::equilibrium, initial->state.time,
+                                      options.step, parts->control.n_steps())
                 : UnseenFeature());
     return *unseen;
   }

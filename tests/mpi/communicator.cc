@@ -4,7 +4,10 @@
 #include "common.h"
 
 #include "base/rank_abort.h"
+#include "fuzz/library_bodies.h"
 #include <taut/base/communicator.h>
+#include <taut/base/exceptions.h>
+#include <taut/substructure/structure.h>
 
 #include <new>
 
@@ -128,4 +131,21 @@ TEST_F(Communicator, the_root_says_what_all_ranks_know)
   taut::RankAbort rank_abort(processes);
   EXPECT_EQ(rank_abort.are_own(), r == 0);
   rank_abort.end_others(1);
+}
+
+// Claim: where one of several bodies cannot be made, none is added on any rank. Expected: the error
+// of its rank, and numbers and names of a body that is added then.
+TEST_F(Communicator, a_structure_is_as_before_where_a_body_fails)
+{
+  taut::Structure structure(processes);
+  const auto make = [] { return library::chain_of("mass", {1.}, {1.}); };
+  const auto fail = []() -> std::shared_ptr<taut::Substructure>
+  { throw taut::UserError("no body"); };
+  EXPECT_THROW(structure.add({{"first", 0, make}, {"second", n - 1, fail}}), taut::UserError);
+  EXPECT_EQ(structure.size(), 0u);
+  EXPECT_TRUE(structure.all_bodies().empty());
+  EXPECT_EQ(structure.add("third", n - 1, make), r == n - 1 ? 0u : taut::Structure::elsewhere);
+  ASSERT_EQ(structure.all_bodies().size(), 1u);
+  EXPECT_EQ(structure.all_bodies()[0].name, "third");
+  EXPECT_EQ(structure.all_bodies()[0].n_dofs, 1u);
 }

@@ -31,6 +31,19 @@ namespace
     return worst / size;
   }
 
+  // A pulse of a ten-thousandth of the time is in the way wherever it is. Expected: 10 m more.
+  TEST(Travels, narrow_pulses_of_the_speed_stay_in_the_way)
+  {
+    for (const double at : {.1, .2, .25, .31234, .5, .7, .7003})
+    {
+      const auto way = travel("40 + (t > " + std::to_string(at) + " && t < " +
+                                  std::to_string(at + 1e-4) + " ? 1e5 : 0)",
+                              1.);
+      for (const double t : {.05, at + 2e-4, .75, .9, 1.})
+        EXPECT_NEAR(way->way(t), 40. * t + (t > at ? 10. : 0.), 1e-8) << at << " " << t;
+    }
+  }
+
   TEST(Travels, numbers_are_constant)
   {
     const Speed number = parse_speed("250", "Speed", 3.6), formula = parse_speed("2*pi", "Speed");

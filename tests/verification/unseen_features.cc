@@ -133,6 +133,72 @@ TEST(UnseenFeatures, pulse_beside_a_slow_load)
   EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about 0.0008 s")) << log;
 }
 
+// A load that is gone at the end of the first step acts in full: 1.8 N s move the mass by 90 mm,
+// and the first triangle has as much above the line between the ends of the step as below. Steps
+// see its value at the end alone.
+TEST(UnseenFeatures, pulses_of_the_first_step)
+{
+  for (const std::string load : {"(t < 0.0009 ? 2000 : 0)", "(t < 0.0009 ? 2000 : 0)+4*sin(13*t)",
+                                 "2000*max(0, 1-t/1e-3)", "2000*exp(-(t/1e-4)^2)"})
+  {
+    std::string log;
+    motion_of(loaded_mass(load), 1e-3, {}, &log);
+    EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about")) << load << log;
+  }
+  std::string log;
+  const double step = 1e-5, u = largest_of(motion_of(loaded_mass("(t < 0.0009 ? 2000 : 0)"), step,
+                                                     {"Time.Step=1e-5"}, &log));
+  EXPECT_FALSE(has(log, "Warning")) << log;
+  EXPECT_NEAR(u, .09, .01 * .09);
+}
+
+// Opposite pulses of 20 N s, half a millisecond apart, move the mass by 10 mm and leave no
+// velocity.
+TEST(UnseenFeatures, opposite_pulses_in_a_step)
+{
+  const std::string pulses =
+      "0.5*sin(5*t)+(t > 0.2002 && t < 0.2003 ? 2e5 : 0)-(t > 0.2007 && t < 0.2008 ? 2e5 : 0)";
+  std::string log;
+  motion_of(loaded_mass(pulses), 1e-3, {}, &log);
+  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about")) << log;
+  const double u = largest_of(motion_of(loaded_mass(pulses), 1e-3, {"Time.Step=1e-5"}));
+  EXPECT_NEAR(u, .0115, 1e-3);
+}
+
+// A pulse that the ends around it do not announce counts by itself: 0.7 N s are 1.75 % of what the
+// slow load has in forty steps, and a tenth of the motion; a bump of a base closes a gap alone.
+TEST(UnseenFeatures, small_pulses_beside_a_slow_motion)
+{
+  std::string log;
+  motion_of(loaded_mass("100*sin(3*t)+(t > 0.5002 && t < 0.5004 ? 3500 : 0)"), 1e-2,
+            {"Time.Step=1e-2", "Time.End=2"}, &log);
+  EXPECT_TRUE(has(log, "Warning: the load on 'm' changes for about")) << log;
+  log = log_of(
+      "Gravity = 0, 0; Start = given\n"
+      "Mass base: Position = 0, -1; Motions = x; Mass = 1;\n"
+      "  Prescribed y = -0.0455+0.0545*sin(13*t)+0.005*exp(-((t-0.1204)/0.0001)^2)\n"
+      "Mass m: Mass = 1\n"
+      "Spring k: To = m; Stiffness = 400; Damping = 1\n"
+      "Link l: Type = stop; From = base; To = m; Direction = 0, 1; Gap = 0.01; Stiffness = rigid\n"
+      "Time: Step = 1e-3; End = 1\n");
+  EXPECT_TRUE(has(log, "Warning: the prescribed place of 'base' changes for about")) << log;
+}
+
+// A bending load at the end of a solid has neither a resultant nor a value in the middle.
+TEST(UnseenFeatures, traction_without_a_resultant)
+{
+  const std::string log = log_of(
+      "Generator = network; Gravity = 0, 0; Start = given\n"
+      "Body bar: Type = solid; Young's modulus = 1e6; Poisson's ratio = 0.3; Density = 1000;\n"
+      "  Fixed boundaries = 0;\n"
+      "  Traction = 1: 1000*sin(9*t)+(t > 0.2003 && t < 0.2004 ? 5e6*(y-0.1) : 0), 0\n"
+      "Body bar/Mesh: Generator = subdivided_hyper_rectangle;\n"
+      "  Arguments = 8, 2 : 0, 0 : 1, 0.2\n"
+      "Time: Step = 1e-3; End = 0.5\n",
+      {});
+  EXPECT_TRUE(has(log, "Warning: the load on 'bar' changes for about")) << log;
+}
+
 // What steps see is no pulse: jumps, vibrations of fifteen steps, a pulse of ten.
 TEST(UnseenFeatures, what_steps_see_is_not_warned_of)
 {
