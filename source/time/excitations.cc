@@ -272,17 +272,23 @@ namespace taut
         return {};
       UnseenFeature result{excitation.name, excitation.origin};
       std::tie(result.width, result.time) = losses.narrowest();
-      // Steps that get shorter, about the feature.
+      // Steps that get shorter, about the feature, which is an end of some of them.
+      constexpr double beside = .38;
       const double first = std::max(start, result.time - around * step),
                    length = std::min(result.time + around * step, start + n_steps * step) - first;
+      const bool is_start = first == start;
+      const auto see_all = [&](const double length_of_step, const double offset)
+      {
+        const long n = std::max(1L, std::lround(length / length_of_step) - (offset > 0.));
+        return Losses(excitation, at_rest, begins && is_start, first + offset * length_of_step,
+                      length_of_step, n, samples_in_step(n, 1))
+            .sees_all();
+      };
       result.longest_step = step;
       for (int k = 0; k < most_halvings; ++k)
       {
         result.longest_step *= .5;
-        const long n = std::max(1L, std::lround(length / result.longest_step));
-        if (Losses(excitation, at_rest, begins && first == start, first, result.longest_step, n,
-                   samples_in_step(n, 1))
-                .sees_all())
+        if (see_all(result.longest_step, 0.) && (is_start || see_all(result.longest_step, beside)))
           break;
       }
       return result;
