@@ -29,9 +29,9 @@ namespace taut
    * dropper of a given length, whose direction alone is found, is a link that turns in this state.
    *
    * Returns the scene with gap, length, stiffness and direction of these links, and with half of
-   * the mass of each link on each of its ends. A form of one rank comes from @p shared if it is known there.
-   * The ranks share the work on long lines, and call it together. Throws UserError naming the
-   * dropper if a tension is negative or a length is not positive.
+   * the mass of each link on each of its ends. A form of one rank comes from @p shared if it is
+   * known there. The ranks share the work on long lines, and call it together. Throws UserError
+   * naming the dropper if a tension is negative or a length is not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
                      const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
