@@ -141,7 +141,7 @@ namespace taut
 
   std::string Fields::BodyFiles::piece(const std::size_t p) const
   {
-    return numbered(n_pieces == 1 ? stem : stem + "_piece" + std::to_string(p), n_frames);
+    return numbered(n_pieces == 1 ? stem : stem + ".piece" + std::to_string(p), n_frames);
   }
 
   void Fields::write_bodies(const StepView &step)

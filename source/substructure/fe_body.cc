@@ -438,6 +438,7 @@ namespace taut
 
     using namespace dealii::DataComponentInterpretation;
     const unsigned int n = handler.get_fe().n_components();
+    std::shared_ptr<const void> fields; // lives longer than the output
     dealii::DataOut<dim> data;
     data.add_data_vector(
         handler, all, std::vector<std::string>(n, "displacement"),
@@ -446,7 +447,7 @@ namespace taut
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
     flags.physical_units["displacement"] = "m";
-    const std::shared_ptr<const void> fields = add_fields(all, cells, data, flags.physical_units);
+    fields = add_fields(all, cells, data, flags.physical_units);
     show_cells(cells, data);
     data.build_patches(mapping, handler.get_fe().degree);
     data.set_flags(flags);

@@ -55,12 +55,12 @@ namespace taut
     class Losses
     {
     public:
-      /// @p at_rest is the value in balance at the start of the run. With @p begins the load is not
-      /// in balance there: it comes with the first step, whose end alone a scheme sees.
-      Losses(const Excitation &excitation, const double at_rest, const bool begins,
+      /// @p at_rest is the value in balance at the start of the run. If @p first_by_end, the first
+      /// step takes the value at its end for the whole step.
+      Losses(const Excitation &excitation, const double at_rest, const bool first_by_end,
              const double start, const double step, const long n_steps, const long n_samples)
           : excitation(excitation), at_start(at_rest), start(start), step(step), n_steps(n_steps),
-            n_samples(n_samples), begins(begins)
+            n_samples(n_samples), first_by_end(first_by_end)
       {
         last = excitation.at(start) - at_start;
         least = most = last;
@@ -69,18 +69,23 @@ namespace taut
         take_pulse(n_steps - 1, 0.);
       }
 
-      bool sees_all() const { return !loses_area() && !loses_range() && !loses_pulse(); }
+      bool sees_all() const
+      {
+        return !loses_area() && !loses_start() && !loses_range() && !loses_pulse();
+      }
 
       /// Where most is lost: a width and a time.
       std::pair<double, double> narrowest() const
       {
-        return width_and_time(loses_range()  ? step_of_excursion
-                              : loses_area() ? step_of_loss
-                                             : step_of_pulse);
+        return width_and_time(loses_range()   ? step_of_excursion
+                              : loses_area()  ? step_of_loss
+                              : loses_start() ? 0
+                                              : step_of_pulse);
       }
 
     private:
       bool loses_area() const { return largest_loss > lost_area * largest_area; }
+      bool loses_start() const { return loss_of_first > lost_area * largest_area; }
       bool loses_range() const
       {
         return !excitation.is_load && excursion > lost_range * (most - least);
@@ -116,7 +121,8 @@ namespace taut
         {
           const double now = value(m, k), mean = .5 * (before + now) / n_samples;
           area += mean;
-          moment += mean * ((k - .5) / n_samples - .5);
+          moment +=
+              mean * ((k - .5) / n_samples - .5) + (now - before) / (12. * n_samples * n_samples);
           size += .5 * (std::fabs(before) + std::fabs(now)) / n_samples;
           before = now;
           low = std::min(low, now);
@@ -134,8 +140,9 @@ namespace taut
         if (m > 0)
           take_pulse(m - 1, std::fabs(end_before - 2. * last + before));
         end_before = last;
-        if (m == 0 && begins)
-          last = 0.;
+        const bool is_first = m == 0 && first_by_end;
+        if (is_first)
+          last = before;
         // Opposite pulses in a step leave a change of the place, as a pulse of the size of their
         // moment over half of a step.
         const double loss = std::max(std::fabs(area - .5 * (last + before)),
@@ -143,15 +150,18 @@ namespace taut
         last = before;
         last_loss = loss;
         last_outside = outside;
-        if (loss > largest_of_step)
+        if (is_first)
+          loss_of_first = loss;
+        else if (loss > largest_of_step)
         {
           largest_of_step = loss;
           step_of_loss = m;
         }
         std::array<double, 2> &oldest = of_steps[m % window];
-        losses += loss - oldest[0];
+        const double shared = is_first ? 0. : loss;
+        losses += shared - oldest[0];
         sizes += size - oldest[1];
-        oldest = {loss, size};
+        oldest = {shared, size};
         largest_loss = std::max(largest_loss, losses);
         largest_area = std::max(largest_area, sizes);
       }
@@ -165,13 +175,17 @@ namespace taut
         const double begin = start + std::max(0L, m - 1) * step,
                      end = start + std::min(m + 2, n_steps) * step, length = end - begin,
                      first = excitation.at(begin), last_value = excitation.at(end);
+        constexpr double rounding = 1e-12;
         double area = 0., height = 0., before = 0., time = begin;
         int n_turns = 0;
         for (long k = 0; k <= n; ++k)
         {
           const double part = static_cast<double>(k) / n,
-                       off = excitation.at(begin + part * length) - first -
-                             part * (last_value - first);
+                       now = excitation.at(begin + part * length);
+          double off = now - first - part * (last_value - first);
+          if (std::fabs(off) <=
+              rounding * std::max({std::fabs(now), std::fabs(first), std::fabs(last_value)}))
+            off = 0.;
           area += std::fabs(off) / n;
           n_turns += off * before < 0.;
           before = off == 0. ? before : off;
@@ -186,12 +200,13 @@ namespace taut
       const Excitation &excitation;
       const double at_start, start, step;
       const long n_steps, n_samples; ///< of the run, and of a step
-      const bool begins;
+      const bool first_by_end;
       double last = 0.;
       double least = 0., most = 0., excursion = 0.;
       double losses = 0., sizes = 0.; ///< in the last steps
       double largest_loss = 0., largest_area = 0., largest_of_step = 0.;
       long step_of_excursion = 0, step_of_loss = 0;
+      double loss_of_first = 0.; ///< if it is by its end
       double end_before = 0., last_loss = 0., last_outside = 0., last_bend = 0., pulse = 0.;
       long step_of_pulse = 0;
       std::array<std::array<double, 2>, window> of_steps =
@@ -262,12 +277,14 @@ namespace taut
 
   namespace
   {
-    UnseenFeature look_for(const Excitation &excitation, const bool is_balanced, const double start,
-                           const double step, const long n_steps, const long n_samples)
+    UnseenFeature look_for(const Excitation &excitation, const LoadsAtStart loads,
+                           const double start, const double step, const long n_steps,
+                           const long n_samples)
     {
-      const bool begins = excitation.is_load && !is_balanced;
-      const double at_rest = begins ? 0. : excitation.at(start);
-      const Losses losses(excitation, at_rest, begins, start, step, n_steps, n_samples);
+      const bool is_balanced = !excitation.is_load || loads == LoadsAtStart::balanced,
+                 first_by_end = excitation.is_load && loads == LoadsAtStart::unseen;
+      const double at_rest = is_balanced ? excitation.at(start) : 0.;
+      const Losses losses(excitation, at_rest, first_by_end, start, step, n_steps, n_samples);
       if (losses.sees_all())
         return {};
       UnseenFeature result{excitation.name, excitation.origin};
@@ -279,9 +296,11 @@ namespace taut
       const bool is_start = first == start;
       const auto see_all = [&](const double length_of_step, const double offset)
       {
-        const long n = std::max(1L, std::lround(length / length_of_step) - (offset > 0.));
-        return Losses(excitation, at_rest, begins && is_start, first + offset * length_of_step,
-                      length_of_step, n, samples_in_step(n, 1))
+        constexpr double rounding = 1e-6; // of a number of steps
+        const auto whole = static_cast<long>(length / length_of_step + rounding);
+        const long n = std::max(1L, whole - (offset > 0.));
+        return Losses(excitation, at_rest, first_by_end && is_start,
+                      first + offset * length_of_step, length_of_step, n, samples_in_step(n, 1))
             .sees_all();
       };
       result.longest_step = step;
@@ -296,7 +315,7 @@ namespace taut
   } // namespace
 
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
-                                    const Communicator &processes, const bool is_balanced,
+                                    const Communicator &processes, const LoadsAtStart loads,
                                     const double start, const double step, const long n_steps)
   {
     UnseenFeature narrowest;
@@ -307,8 +326,7 @@ namespace taut
       if (!excitation.is_costly)
         try
         {
-          const UnseenFeature own =
-              look_for(excitation, is_balanced, start, step, n_steps, n_samples);
+          const UnseenFeature own = look_for(excitation, loads, start, step, n_steps, n_samples);
           if (own.width < narrowest.width)
             narrowest = own;
         }

@@ -39,6 +39,15 @@ namespace taut
     double longest_step = std::numeric_limits<double>::infinity();
   };
 
+  /// What the first step makes of loads at the start: they are in balance there; they count as at
+  /// the end of any other step; or the step knows its own end alone, as backward Euler does.
+  enum class LoadsAtStart
+  {
+    balanced,
+    seen,
+    unseen
+  };
+
   /**
    * Looks for the narrowest feature of the excitations that the ends of steps do not see, in @p
    * n_steps steps of length @p step from @p start on [s]. A run is sampled at least twenty thousand
@@ -47,16 +56,15 @@ namespace taut
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
    * between the ends of steps, and so their moments about the middle of the step, which opposite
-   * pulses have. They count from the value at the start if it @p is_balanced there; otherwise a
-   * load comes with the first step, and its value at the start counts for nothing. A load is seen
-   * if the differences in forty steps are at most 2 % of the largest area in forty steps. So a jump
+   * pulses have. They count from the value at the start if this is in balance. A load is seen if
+   * the differences in forty steps are at most 2 % of the largest area in forty steps. So a jump
    * inside a step is seen: it is late by a part of a step. Of a sine the thirteenth of a period is
    * seen. A place also has to stay within its values at both ends of each step, by a tenth of its
    * range. A pulse inside of a step, which the ends around it do not announce, may have 0.5 % of
    * that area, or 2 % of that range. Called by all ranks together.
    */
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
-                                    const Communicator &processes, bool is_balanced, double start,
+                                    const Communicator &processes, LoadsAtStart loads, double start,
                                     double step, long n_steps);
 } // namespace taut
 

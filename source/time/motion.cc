@@ -551,11 +551,14 @@ namespace taut
 
   const UnseenFeature &Motion::unseen_feature()
   {
+    const LoadsAtStart loads = options.start == Start::equilibrium ? LoadsAtStart::balanced
+                               : first_scheme == integrator        ? LoadsAtStart::seen
+                                                                   : LoadsAtStart::unseen;
     if (!unseen)
       unseen = std::make_unique<UnseenFeature>(
           parts ? find_unseen_feature(excitations(structure, constraints), structure.communicator(),
-                                      options.start == Start::equilibrium, initial->state.time,
-                                      options.step, parts->control.n_steps())
+                                      loads, initial->state.time, options.step,
+                                      parts->control.n_steps())
                 : UnseenFeature());
     return *unseen;
   }

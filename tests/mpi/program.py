@@ -61,7 +61,7 @@ def same_text(a, b):
 
 def file_names(folder):
     """Those of the pieces of a body, and the file that joins them, as those of the whole."""
-    return sorted({re.sub(r"_piece\d+", "", path.name).replace(".pvtu", ".vtu") for path in folder.rglob("*")})
+    return sorted({re.sub(r"\.piece\d+", "", path.name).replace(".pvtu", ".vtu") for path in folder.rglob("*")})
 
 
 def last_displacements(collection):

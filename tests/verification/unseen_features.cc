@@ -203,11 +203,18 @@ TEST(UnseenFeatures, traction_without_a_resultant)
 TEST(UnseenFeatures, what_steps_see_is_not_warned_of)
 {
   for (const std::string load :
-       {"t < 0.3005 ? 0 : 5", "sin(418*t)", "exp(-((t-.3)/5e-3)^2)", "3", "t < .20003 ? 9*t : 2"})
+       {"t < 0.3005 ? 0 : 5", "sin(418*t)", "exp(-((t-.3)/5e-3)^2)", "3", "t < .20003 ? 9*t : 2",
+        "cos(418*t)", "exp(-t/20e-3)", "t < 0.05 ? 500-100*t : 0"})
   {
     std::string log;
     motion_of(loaded_mass(load), 1e-3, {}, &log);
     EXPECT_FALSE(has(log, "changes for about")) << load << log;
+  }
+  for (const std::string scheme : {"generalised-alpha", "Moreau-Jean"})
+  {
+    const std::string log =
+        log_of(loaded_mass("500 + 0.1*t"), {"Time.End=0.01", "Time.Scheme=" + scheme});
+    EXPECT_FALSE(has(log, "changes for about")) << scheme << log;
   }
 }
 

@@ -139,7 +139,7 @@ namespace taut
     NullSpace null_space() const override { return own_null_space; }
 
     bool has_fields() const override { return true; }
-    void write_vtu(const std::string &path, const std::vector<double> &U) const override;
+    void write_vtu(const std::string &path, const std::vector<double> &U) const final;
 
     /// Parts are drawn together if they have the same DoFHandler.
     bool is_drawn_with(const PartOfBody &other) const override;
