@@ -49,7 +49,7 @@ namespace taut
     /// Sums over the ranks that hold a row, on the owned rows.
     void add_shares(const double *on_held, double *sums) const;
 
-    /// Each value becomes the smallest of those that the ranks have for its row; on held rows.
+    /// Each value becomes the smallest value that a rank has for its row; on held rows.
     void take_smallest(std::vector<double> &on_held) const;
 
     /// Position of an owned row among the held ones.

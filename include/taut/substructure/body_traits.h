@@ -118,10 +118,10 @@ namespace taut
       const std::vector<double> *U; ///< displacement from the undeformed body
     };
 
-    /// Names of files without a folder, but for that of the first.
+    /// Paths of the files that a rank writes, and names of the pieces without a folder.
     struct Files
     {
-      std::string own;                      ///< path of the .vtu file
+      std::string own;                      ///< the .vtu file
       std::string joined = {};              ///< path of the .pvtu file; empty: none is written
       std::vector<std::string> pieces = {}; ///< the .vtu files of all ranks, which it joins
     };
