@@ -262,9 +262,10 @@ namespace taut
     const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
     if (finest)
       found = finest;
-    // The shorter steps have an error, too.
+    // The shorter steps have an error, too, of first order at impacts.
     const double now = found->over_bounds(),
-                 more = finest ? std::max(0., now - over) : now / (ratio_of_steps - 1.);
+                 of_first_order = now / ((finest ? 1. / shortest : ratio_of_steps) - 1.),
+                 more = std::max(finest ? now - over : 0., of_first_order);
     too_long = !(now + more <= good);
   }
 

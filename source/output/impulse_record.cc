@@ -95,6 +95,7 @@ namespace taut
                            most_ends_of_few) /
                 2 * 2;
     impulse.assign(items.size(), 0.);
+    impulses.reserve((most_ends + 1) * items.size());
     impulses = impulse;
   }
 
@@ -129,22 +130,26 @@ namespace taut
     stride *= 2;
   }
 
-  /// Impulses at given times, linear between its own.
-  std::vector<double> ImpulseRecord::at(const std::vector<double> &instants) const
+  std::vector<ImpulseRecord::Instant>
+  ImpulseRecord::instants(const std::vector<double> &of_times) const
   {
-    std::vector<double> result;
-    const std::size_t n = impulse.size();
+    std::vector<Instant> result;
     std::size_t next = 1;
-    for (const double t : instants)
+    for (const double t : of_times)
     {
       while (next + 1 < times.size() && times[next] < t)
         ++next;
-      const double part = std::min(1., (t - times[next - 1]) / (times[next] - times[next - 1]));
-      const double *const before = impulses.data() + (next - 1) * n, *const behind = before + n;
-      for (std::size_t i = 0; i < n; ++i)
-        result.push_back(before[i] + part * (behind[i] - before[i]));
+      result.push_back(
+          {next, std::min(1., (t - times[next - 1]) / (times[next] - times[next - 1]))});
     }
     return result;
+  }
+
+  double ImpulseRecord::at(const Instant &instant, const std::size_t item) const
+  {
+    const double *const behind = impulses.data() + instant.next * items.size() + item;
+    const double before = *(behind - items.size());
+    return before + instant.part * (*behind - before);
   }
 
   std::pair<double, std::size_t> ImpulseRecord::difference(const ImpulseRecord &other,
@@ -155,31 +160,43 @@ namespace taut
     std::pair<double, std::size_t> result(0., -1);
     if (other.times.size() < 2)
       return result;
-    const std::vector<double> others = other.at(times);
-    const std::size_t n = items.size();
+    const std::size_t n = items.size(), n_times = times.size();
+    // The ends of steps, and the times that are a bit earlier and later than each of them.
+    std::vector<double> shifted[2] = {times, times};
+    for (std::size_t k = 1; k < n_times; ++k)
+    {
+      const double shift = part_of_lateness * (times[k] - times[k - 1]);
+      shifted[0][k] -= shift;
+      shifted[1][k - 1] += shift;
+    }
+    const std::vector<Instant> same = other.instants(times), earlier = other.instants(shifted[0]),
+                               later = other.instants(shifted[1]);
     std::vector<double> own = largest;
-    for (const auto &[all, of_groups] : {std::pair(&others, &largest), std::pair(&impulses, &own)})
-      for (std::size_t e = 0; e < all->size(); ++e)
+    for (std::size_t k = 0; k < n_times; ++k)
+      for (std::size_t i = 0; i < n; ++i)
       {
-        double &of_group = (*of_groups)[items[e % n].group];
-        of_group = std::max(of_group, std::fabs((*all)[e]));
+        double &of_others = largest[items[i].group], &of_own = own[items[i].group];
+        of_others = std::max(of_others, std::fabs(other.at(same[k], i)));
+        of_own = std::max(of_own, std::fabs(impulses[k * n + i]));
       }
     for (std::size_t q = 0; q < own.size(); ++q)
       if (own[q] > much_smaller * largest[q])
         largest[q] = own[q];
-    for (std::size_t k = 0; k < times.size() && times[k] <= other.times.back() + rounding; ++k)
+    for (std::size_t k = 0; k < n_times && times[k] <= other.times.back() + rounding; ++k)
       for (std::size_t i = 0; i < n; ++i)
       {
         const std::size_t q = items[i].group;
-        std::size_t first = k > 0 ? k - 1 : 0, last = std::min(k + 1, times.size() - 1);
-        while (first > 0 && times[k] - times[first] < late[q])
+        std::size_t first = k, last = k;
+        while (first > 0 && times[k] - times[first - 1] <= late[q])
           --first;
-        while (last + 1 < times.size() && times[last] - times[k] < late[q])
+        while (last + 1 < n_times && times[last + 1] - times[k] <= late[q])
           ++last;
+        const auto of_others = [&](const std::size_t j)
+        {
+          return other.at(j <= last ? same[j] : j == last + 1 ? earlier[k] : later[k], i);
+        };
         const double d =
-            ratio(distance_to_range(impulses[k * n + i], first, last,
-                                    [&](const std::size_t j) { return others[j * n + i]; }),
-                  largest[q]);
+            ratio(distance_to_range(impulses[k * n + i], first, last + 2, of_others), largest[q]);
         if (d > result.first || d != d)
           result = {d, items[i].row};
       }

@@ -34,8 +34,8 @@ namespace taut
      * The largest difference from the other impulses, and its constraint; -1: nothing differs. The
      * difference is relative to the largest other impulse of the group and kind, or to that of this
      * run if it is more than twice as large, or to @p largest [N s, N m s] if that is more. An
-     * impulse may be early or late by @p late [s], or by one end of a step. The comparison ends
-     * with the other run, but for @p rounding [s].
+     * impulse may be early or late by @p late [s], or by half a step. The comparison ends with the
+     * other run, but for @p rounding [s].
      */
     std::pair<double, std::size_t> difference(const ImpulseRecord &other,
                                               std::vector<double> largest,
@@ -51,7 +51,17 @@ namespace taut
 
   private:
     void keep_every_second_end();
-    std::vector<double> at(const std::vector<double> &instants) const;
+
+    /// A time between two recorded ends.
+    struct Instant
+    {
+      std::size_t next; ///< end
+      double part;      ///< of the time between both
+    };
+    std::vector<Instant> instants(const std::vector<double> &of_times) const;
+
+    /// The impulse of an item, linear between the ends.
+    double at(const Instant &instant, std::size_t item) const;
 
     /// A constraint, or some that share an impulse.
     struct Item

@@ -32,10 +32,6 @@ namespace taut
     /// Part of the largest momentum below which impulses are ignored.
     constexpr double least_impulse = 1e-3;
 
-    /// Part of the tolerated shift of an impact that two runs may differ by; the rest is for the
-    /// error of the better run.
-    constexpr double part_of_lateness = .5;
-
     /// Part of a step by which its end may miss a sample.
     constexpr double rounding_of_times = 1e-6;
 
@@ -375,16 +371,26 @@ namespace taut
     for (std::size_t g = 0; g < n_groups; ++g)
     {
       const double late = std::max(size.late[2 * g], size.late[2 * g + 1]),
-                   window = std::max(1., std::floor(late / interval));
+                   window = std::floor(late / interval);
       const bool moves = size.place[2 * g] > 0. || size.place[2 * g + 1] > 0.;
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
       for (std::size_t s = 0; s < n_both && moves; ++s)
-        result.energy =
-            worse(ratio(distance_to_range(
-                            change(own, s, g), s > w ? s - w : 0, std::min(s + w, n_both - 1),
-                            [&](const std::size_t j) { return change(others, j, g); }),
-                        size.energy[g]),
-                  result.energy);
+      {
+        const std::size_t first = s > w ? s - w : 0, last = std::min(s + w, n_both - 1);
+        const auto of_others = [&](const std::size_t j)
+        {
+          if (j <= last)
+            return change(others, j, g);
+          // A bit earlier and later.
+          const std::size_t next = j == last + 1 ? std::max<std::size_t>(s, 1) - 1
+                                                 : std::min(s + 1, n_both - 1);
+          return change(others, s, g) +
+                 part_of_lateness * (change(others, next, g) - change(others, s, g));
+        };
+        result.energy = worse(
+            ratio(distance_to_range(change(own, s, g), first, last + 2, of_others), size.energy[g]),
+            result.energy);
+      }
     }
   }
 

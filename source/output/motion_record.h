@@ -63,7 +63,7 @@ namespace taut
      * Difference of this motion from another one, sample by sample. Impulses and energies jump at
      * an impact. The bound of the places allows an impact to be early or late by the time in which
      * the fastest place moves that far. Impulses and energies may hence have any value of the other
-     * motion within this time, or within an interval. Called by all ranks together.
+     * motion within half of this time, or of an interval. Called by all ranks together.
      */
     MotionDifference difference(const MotionRecord &other) const;
 

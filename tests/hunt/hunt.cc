@@ -109,7 +109,9 @@ TEST(Bounds, impulses_that_are_off_are_named)
                                      {14, 875},
                                      {14, 1635},
                                      {15, 1584},
-                                     {18, 495}})
+                                     {18, 495},
+                                     {107, 496},
+                                     {109, 1627}})
   {
     const hunt::Finding finding = hunt::judge(hunt::make_scene(seed, number));
     EXPECT_EQ(hunt::name(finding.verdict), hunt::name(Verdict::warned_and_wrong))
