@@ -177,8 +177,8 @@ namespace taut
 
   /// Difference from a run to the same end with steps that are about so many times as long;
   /// nothing: no such run.
-  std::optional<MotionDifference> StepAccuracy::compare(const double about,
-                                                        const std::function<bool()> &stop)
+  std::optional<StepAccuracy::Differences> StepAccuracy::compare(const double about,
+                                                                 const std::function<bool()> &stop)
   {
     const long n = std::max(1L, std::lround(static_cast<double>(run.n_steps) / about));
     const double factor = static_cast<double>(run.n_steps) / static_cast<double>(n),
@@ -188,7 +188,7 @@ namespace taut
     control.largest *= factor;
     std::vector<LongestStep> longest_steps = run.motion.longest_steps_in_contacts();
     for (LongestStep &longest : longest_steps)
-      longest.contact_time *= factor;
+      longest.factor *= factor;
     try
     {
       Motion motion(run.motion, step, control, longest_steps, n);
@@ -204,7 +204,8 @@ namespace taut
           return std::nullopt;
         }
       }
-      return own.difference(other);
+      return Differences{own.difference(other, 1.),
+                         own.difference(other, 1. - 2. * std::min(about, 1. / about))};
     }
     catch (const UserError &e)
     {
@@ -233,14 +234,14 @@ namespace taut
            static_cast<double>(n_iterations) *
                (work_of_step + static_cast<double>(run.motion.links().n_of_all()));
     const bool affords_shorter = affords(1. / ratio_of_steps);
-    std::optional<MotionDifference> coarse;
+    std::optional<Differences> coarse;
     // A looser tolerance says less than a tighter one.
     if (sees_all() && has_longer_steps(run) && affords(ratio_of_steps) &&
         !(affords_shorter && run.motion.settings().steps.adaptive()))
       coarse = compare(ratio_of_steps, stop);
-    if (coarse && (coarse->over_bounds() <= agrees || !affords_shorter))
+    if (coarse && (coarse->most.over_bounds() <= agrees || !affords_shorter))
     {
-      extrapolate(*coarse);
+      extrapolate(coarse->most);
       return;
     }
     if (!affords_shorter)
@@ -249,23 +250,25 @@ namespace taut
         reason = "runs with other steps take long: set Time/Check steps = yes for them";
       return;
     }
-    found = compare(1. / ratio_of_steps, stop);
-    if (!found)
+    const std::optional<Differences> shorter = compare(1. / ratio_of_steps, stop);
+    if (!shorter)
       return;
-    const double over = found->over_bounds();
+    const double least = shorter->least.over_bounds(), most = shorter->most.over_bounds();
     if (coarse)
-      order = std::clamp(std::log(coarse->over_bounds() / over) / std::log(ratio_of_steps), 1., 2.);
-    too_long = !(over <= surely_bad);
-    if (too_long || (coarse && over <= surely_good))
+      order = std::clamp(std::log(coarse->most.over_bounds() / most) / std::log(ratio_of_steps), 1.,
+                         2.);
+    too_long = !(least <= surely_bad);
+    found = too_long ? shorter->least : shorter->most;
+    if (too_long || (coarse && most <= surely_good))
       return;
     constexpr double shortest = 1. / (ratio_of_steps * ratio_of_steps);
     const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
     if (finest)
-      found = finest;
+      found = finest->most;
     // The shorter steps have an error, too, of first order at impacts.
     const double now = found->over_bounds(),
                  of_first_order = now / ((finest ? 1. / shortest : ratio_of_steps) - 1.),
-                 more = std::max(finest ? now - over : 0., of_first_order);
+                 more = std::max(finest ? now - least : 0., of_first_order);
     too_long = !(now + more <= good);
   }
 
@@ -274,6 +277,7 @@ namespace taut
   {
     for (double *const e : {&coarse.place, &coarse.impulse, &coarse.energy})
       *e /= ratio_of_steps - 1.;
+    coarse.row_at_end = -1; // impacts of longer steps are off by more than those of the run
     found = coarse;
     too_long = !(coarse.over_bounds() <= good);
   }
@@ -284,10 +288,24 @@ namespace taut
     return std::min(.5, std::pow(aim / over_bounds, 1. / order));
   }
 
+  /// A contact so near the end that its whole impulse hangs on the time when it begins.
+  std::vector<Warning> StepAccuracy::warning_of_end() const
+  {
+    if (!found || found->row_at_end >= run.motion.links().size() ||
+        found->impulse_at_end <= MotionDifference::impulse_bound)
+      return {};
+    return {{"end",
+             to_text("the impulse of '", run.motion.links()[found->row_at_end].name,
+                     "' until the end of the run is off by ", percent(found->impulse_at_end),
+                     " of the largest: it has a contact there, which is early or late. Take a "
+                     "later Time/End"),
+             found->impulse_at_end, MotionDifference::impulse_bound, "1", run.motion.state().time}};
+  }
+
   std::vector<Warning> StepAccuracy::warnings() const
   {
     if (!too_long)
-      return {};
+      return warning_of_end();
     const double part = std::isfinite(found->over_bounds()) ? shortened(found->over_bounds()) : .1;
     const std::string body = "'" + run.motion.bodies().all_bodies()[found->body].name + "'";
     std::ostringstream out;
@@ -296,7 +314,7 @@ namespace taut
       out << "the step is too long: ";
     if (found->is_place())
       out << "the place of " << body << " is off by " << percent(found->place)
-          << " of the largest displacement at t = " << found->time << " s";
+          << " of the largest motion at t = " << found->time << " s";
     else if (found->is_impulse())
       out << "the impulse of '" << run.motion.links()[found->row].name << "' is off by "
           << percent(found->impulse) << " of the largest";

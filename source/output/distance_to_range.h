@@ -13,10 +13,6 @@ namespace taut
     return a == 0. ? 0. : a / b;
   }
 
-  /// Part of the tolerated shift of an impact, which is a step or more, that two runs may differ by;
-  /// the rest is for the better run, whose impacts are at the ends of its own steps, too.
-  constexpr double part_of_lateness = .5;
-
   /// Two runs whose sizes differ by this factor did not see the same scene.
   constexpr double much_smaller = 2.;
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
+#include <utility>
 
 namespace taut
 {
@@ -152,12 +154,13 @@ namespace taut
     return before + instant.part * (*behind - before);
   }
 
-  std::pair<double, std::size_t> ImpulseRecord::difference(const ImpulseRecord &other,
-                                                           std::vector<double> largest,
-                                                           const std::vector<double> &late,
-                                                           const double rounding) const
+  ImpulseRecord::Difference ImpulseRecord::difference(const ImpulseRecord &other,
+                                                      std::vector<double> largest,
+                                                      const std::vector<double> &late,
+                                                      const double shift,
+                                                      const double rounding) const
   {
-    std::pair<double, std::size_t> result(0., -1);
+    Difference result;
     if (other.times.size() < 2)
       return result;
     const std::size_t n = items.size(), n_times = times.size();
@@ -165,9 +168,9 @@ namespace taut
     std::vector<double> shifted[2] = {times, times};
     for (std::size_t k = 1; k < n_times; ++k)
     {
-      const double shift = part_of_lateness * (times[k] - times[k - 1]);
-      shifted[0][k] -= shift;
-      shifted[1][k - 1] += shift;
+      const double time = shift * (times[k] - times[k - 1]);
+      shifted[0][k] -= time;
+      shifted[1][k - 1] += time;
     }
     const std::vector<Instant> same = other.instants(times), earlier = other.instants(shifted[0]),
                                later = other.instants(shifted[1]);
@@ -182,23 +185,31 @@ namespace taut
     for (std::size_t q = 0; q < own.size(); ++q)
       if (own[q] > much_smaller * largest[q])
         largest[q] = own[q];
-    for (std::size_t k = 0; k < n_times && times[k] <= other.times.back() + rounding; ++k)
+    std::size_t n_both = 0;
+    for (; n_both < n_times && times[n_both] <= other.times.back() + rounding; ++n_both)
+      ;
+    for (std::size_t i = 0; i < n && n_both > 0; ++i)
+      if (const double d =
+              ratio(std::fabs(impulses[(n_both - 1) * n + i] - other.at(same[n_both - 1], i)),
+                    largest[items[i].group]);
+          d > result.at_end)
+        std::tie(result.at_end, result.row_at_end) = std::pair(d, items[i].row);
+    for (std::size_t k = 0; k < n_both; ++k)
       for (std::size_t i = 0; i < n; ++i)
       {
         const std::size_t q = items[i].group;
         std::size_t first = k, last = k;
-        while (first > 0 && times[k] - times[first - 1] <= late[q])
+        while (first > 0 && times[k] - times[first - 1] <= shift * late[q])
           --first;
-        while (last + 1 < n_times && times[last + 1] - times[k] <= late[q])
+        while (last + 1 < n_times && times[last + 1] - times[k] <= shift * late[q])
           ++last;
-        const auto of_others = [&](const std::size_t j)
-        {
+        const auto of_others = [&](const std::size_t j) {
           return other.at(j <= last ? same[j] : j == last + 1 ? earlier[k] : later[k], i);
         };
         const double d =
             ratio(distance_to_range(impulses[k * n + i], first, last + 2, of_others), largest[q]);
-        if (d > result.first || d != d)
-          result = {d, items[i].row};
+        if (d > result.largest || d != d)
+          std::tie(result.largest, result.row) = std::pair(d, items[i].row);
       }
     return result;
   }

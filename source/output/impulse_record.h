@@ -30,17 +30,22 @@ namespace taut
     /// Records an accepted step.
     void record(const State &state, const StepReport &report);
 
+    /// Relative differences, the largest and that at the end of the comparison, where nothing may
+    /// be early or late, and their constraints; -1: nothing differs.
+    struct Difference
+    {
+      double largest = 0., at_end = 0.; ///< [1]
+      std::size_t row = -1, row_at_end = -1;
+    };
+
     /**
-     * The largest difference from the other impulses, and its constraint; -1: nothing differs. The
-     * difference is relative to the largest other impulse of the group and kind, or to that of this
-     * run if it is more than twice as large, or to @p largest [N s, N m s] if that is more. An
-     * impulse may be early or late by @p late [s], or by half a step. The comparison ends with the
-     * other run, but for @p rounding [s].
+     * The difference from the other impulses. It is relative to the largest other impulse of the
+     * group and kind, or to that of this run if it is more than twice as large, or to @p largest [N
+     * s, N m s] if that is more. An impulse may be early or late by a part @p shift [1] of a step
+     * or of the time @p late [s]. The comparison ends with the other run, but for @p rounding [s].
      */
-    std::pair<double, std::size_t> difference(const ImpulseRecord &other,
-                                              std::vector<double> largest,
-                                              const std::vector<double> &late,
-                                              double rounding) const;
+    Difference difference(const ImpulseRecord &other, std::vector<double> largest,
+                          const std::vector<double> &late, double shift, double rounding) const;
 
     /// Saves or loads.
     template <typename Archive>

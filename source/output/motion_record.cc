@@ -181,7 +181,7 @@ namespace taut
   {
     std::vector<double> place;   ///< 0: rounding
     std::vector<double> impulse; ///< below which impulses are not compared [N s, N m s]
-    std::vector<double> late;    ///< tolerated shift of an impact [s]
+    std::vector<double> late;    ///< shift of an impact that the bound of places allows [s]
     std::vector<double> energy;  ///< by group [J]
 
     /// Takes those of another run where these are much smaller: this run saw less.
@@ -316,8 +316,7 @@ namespace taut
                      least_motion = std::max(rounding_of_places * (all.max(whole[q]) + largest),
                                              q % 2 == 0 ? forces[g] : 0.);
         result.place.push_back(largest > least_motion ? largest : 0.);
-        result.late.push_back(
-            ratio(part_of_lateness * MotionDifference::place_bound * largest, fastest));
+        result.late.push_back(ratio(MotionDifference::place_bound * largest, fastest));
         // 2 T / v of bodies with speeds up to v is at most their momentum.
         result.impulse.push_back(least_impulse * ratio(2. * kinetic, fastest));
       }
@@ -329,8 +328,8 @@ namespace taut
   MotionRecord::Energies MotionRecord::energies_of_all() const
   {
     Energies result = energies;
-    for (std::array<double, 2> &energy : result)
-      structure.communicator().sum(energy.data(), 2);
+    if (!result.empty())
+      structure.communicator().sum(result.front().data(), 2 * result.size());
     return result;
   }
 
@@ -358,7 +357,7 @@ namespace taut
   }
 
   void MotionRecord::compare_energies(const MotionRecord &other, const Sizes &size,
-                                      MotionDifference &result) const
+                                      const double shift, MotionDifference &result) const
   {
     const Energies own = energies_of_all(), others = other.energies_of_all();
     const std::size_t n_groups = groups.n_groups(),
@@ -370,7 +369,7 @@ namespace taut
     };
     for (std::size_t g = 0; g < n_groups; ++g)
     {
-      const double late = std::max(size.late[2 * g], size.late[2 * g + 1]),
+      const double late = shift * std::max(size.late[2 * g], size.late[2 * g + 1]),
                    window = std::floor(late / interval);
       const bool moves = size.place[2 * g] > 0. || size.place[2 * g + 1] > 0.;
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
@@ -382,10 +381,9 @@ namespace taut
           if (j <= last)
             return change(others, j, g);
           // A bit earlier and later.
-          const std::size_t next = j == last + 1 ? std::max<std::size_t>(s, 1) - 1
-                                                 : std::min(s + 1, n_both - 1);
-          return change(others, s, g) +
-                 part_of_lateness * (change(others, next, g) - change(others, s, g));
+          const std::size_t next =
+              j == last + 1 ? std::max<std::size_t>(s, 1) - 1 : std::min(s + 1, n_both - 1);
+          return change(others, s, g) + shift * (change(others, next, g) - change(others, s, g));
         };
         result.energy = worse(
             ratio(distance_to_range(change(own, s, g), first, last + 2, of_others), size.energy[g]),
@@ -394,15 +392,18 @@ namespace taut
     }
   }
 
-  MotionDifference MotionRecord::difference(const MotionRecord &other) const
+  MotionDifference MotionRecord::difference(const MotionRecord &other, const double shift) const
   {
     Sizes size = other.sizes();
     size.add(sizes());
     MotionDifference result;
     compare_places(other, size, result);
-    std::tie(result.impulse, result.row) =
-        impulses.difference(other.impulses, size.impulse, size.late, rounding_of_times * interval);
-    compare_energies(other, size, result);
+    const ImpulseRecord::Difference of_impulses = impulses.difference(
+        other.impulses, size.impulse, size.late, shift, rounding_of_times * interval);
+    std::tie(result.impulse, result.row) = std::pair(of_impulses.largest, of_impulses.row);
+    std::tie(result.impulse_at_end, result.row_at_end) =
+        std::pair(of_impulses.at_end, of_impulses.row_at_end);
+    compare_energies(other, size, shift, result);
     return result;
   }
 
@@ -427,9 +428,7 @@ namespace taut
       unarchive(text, [&](InputArchive &stored) { stored >> of_rank; });
       of_all.insert(of_rank.begin(), of_rank.end());
     }
-    Energies sums = energies;
-    for (std::array<double, 2> &energy : sums)
-      all.sum(energy.data(), 2);
+    const Energies sums = energies_of_all();
     std::vector<double> fastest;
     for (const double v : speed)
       fastest.push_back(all.max(v));

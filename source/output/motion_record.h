@@ -27,9 +27,14 @@ namespace taut
     /// The largest ratio of the three to its bound; not-a-number if one is.
     double over_bounds() const;
 
-    std::size_t body = 0;    ///< of Structure::all_bodies(), with the largest difference of places
-    double time = 0.;        ///< of this difference [s]
-    std::size_t row = -1;    ///< constraint with the largest difference of impulses; -1: none
+    std::size_t body = 0; ///< of Structure::all_bodies(), with the largest difference of places
+    double time = 0.;     ///< of this difference [s]
+    std::size_t row = -1; ///< constraint with the largest difference of impulses; -1: none
+
+    /// The largest difference of impulses at the end, where an impact that is early or late counts,
+    /// and its constraint; -1: none.
+    double impulse_at_end = 0.; ///< [1]
+    std::size_t row_at_end = -1;
     bool is_place() const;   ///< the place exceeds its bound most
     bool is_impulse() const; ///< the impulse exceeds its bound most
   };
@@ -61,11 +66,12 @@ namespace taut
 
     /**
      * Difference of this motion from another one, sample by sample. Impulses and energies jump at
-     * an impact. The bound of the places allows an impact to be early or late by the time in which
-     * the fastest place moves that far. Impulses and energies may hence have any value of the other
-     * motion within half of this time, or of an interval. Called by all ranks together.
+     * an impact. The bounds allow an impact to be early or late by a step, or by the time in which
+     * the fastest place moves as far as their bound. Impulses and energies may hence have any value
+     * that the other motion has within a part of this time, @p shift [1]. Called by all ranks
+     * together.
      */
-    MotionDifference difference(const MotionRecord &other) const;
+    MotionDifference difference(const MotionRecord &other, double shift) const;
 
     /// Stores the data of all ranks. Called by all ranks together.
     void save(OutputArchive &archive);
@@ -91,7 +97,7 @@ namespace taut
     std::vector<double> rounding() const;
     void compare_places(const MotionRecord &other, const Sizes &size,
                         MotionDifference &result) const;
-    void compare_energies(const MotionRecord &other, const Sizes &size,
+    void compare_energies(const MotionRecord &other, const Sizes &size, double shift,
                           MotionDifference &result) const;
 
     const Structure &structure;

@@ -10,6 +10,28 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Quadrature points of some of the faces, at which the search for pulses looks at a load.
+    template <int dim, typename Faces>
+    std::vector<Coordinates> sampled_places(const SolidMesh<dim> &mesh,
+                                            const dealii::Quadrature<dim - 1> &quadrature,
+                                            const Faces &faces)
+    {
+      constexpr std::size_t most_faces = 100;
+      dealii::FEFaceValues<dim> values(mesh.mapping(), mesh.dof_handler().get_fe(), quadrature,
+                                       dealii::update_quadrature_points);
+      std::vector<Coordinates> places;
+      for (std::size_t f = 0; f < faces.size(); f += faces.size() / most_faces + 1)
+      {
+        values.reinit(faces[f].first, faces[f].second);
+        for (const dealii::Point<dim> &point : values.get_quadrature_points())
+          places.push_back(coordinates<dim>(point));
+      }
+      return places;
+    }
+  } // namespace
+
   /// Tractions and pressures. Constant loads are integrated once.
   template <int dim>
   void ElasticSolid<dim>::add_boundary_loads()
@@ -26,13 +48,15 @@ namespace taut
           if (cell->face(f)->at_boundary() &&
               condition.boundaries.count(cell->face(f)->boundary_id()) > 0)
             faces.emplace_back(cell, f);
-      const auto add = [this, &condition, faces](const double t, dealii::Vector<double> &P)
+      const dealii::Quadrature<dim - 1> quadrature = mesh->face_quadrature(mesh->degree() + 1);
+      const auto add =
+          [this, &condition, faces, quadrature](const double t, dealii::Vector<double> &P)
       {
         const dealii::FiniteElement<dim> &element = mesh->dof_handler().get_fe();
-        dealii::FEFaceValues<dim> values(
-            mesh->mapping(), element, mesh->face_quadrature(mesh->degree() + 1),
-            dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
-                dealii::update_quadrature_points);
+        dealii::FEFaceValues<dim> values(mesh->mapping(), element, quadrature,
+                                         dealii::update_values | dealii::update_JxW_values |
+                                             dealii::update_normal_vectors |
+                                             dealii::update_quadrature_points);
         const double thickness = dim == 2 ? options.thickness : 1.;
         std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
         for (const auto &[cell, f] : faces)
@@ -55,31 +79,27 @@ namespace taut
           }
         }
       };
-      const auto sample = [&condition, faces](const double t)
-      {
-        constexpr std::size_t most_places = 4;
-        constexpr double off_centre = .55; // where a load with a symmetry is not zero
-        double sum = 0.;
-        UnlikeWeights weights;
-        for (std::size_t f = 0; f < faces.size(); f += faces.size() / most_places + 1)
-        {
-          const auto &[cell, face] = faces[f];
-          const dealii::Point<dim> centre = cell->face(face)->center();
-          const Coordinates value = condition.value(
-              coordinates<dim>(centre + off_centre * (cell->face(face)->vertex(0) - centre)), t);
-          for (const double force : {value.x, value.y, value.z})
-            sum += weights.next() * force;
-        }
-        return sum;
-      };
-      if (condition.varies)
-        this->add_load(add, sample);
-      else
+      if (!condition.varies)
       {
         dealii::Vector<double> P(this->n_dofs());
         add(0., P);
         this->add_constant_load(P);
+        continue;
       }
+      const std::vector<Coordinates> places = sampled_places<dim>(*mesh, quadrature, faces);
+      this->add_load(add,
+                     [&condition, places](const double t, const std::size_t n_places)
+                     {
+                       double sum = 0.;
+                       UnlikeWeights weights;
+                       for (std::size_t p = 0; p < places.size(); p += places.size() / n_places + 1)
+                       {
+                         const Coordinates value = condition.value(places[p], t);
+                         for (const double force : {value.x, value.y, value.z})
+                           sum += weights.next() * force;
+                       }
+                       return sum;
+                     });
     }
   }
 

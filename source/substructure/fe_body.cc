@@ -56,7 +56,7 @@ namespace taut
   {
   public:
     Load(const FEBody<dim> &body, std::function<void(double, dealii::Vector<double> &)> add,
-         std::function<double(double)> sample)
+         std::function<double(double, std::size_t)> sample)
         : body(body), add_load(std::move(add)), sample_load(std::move(sample))
     {
     }
@@ -67,15 +67,15 @@ namespace taut
       body.check_size(own.size(), "load in time");
       body.condense(own, P);
     }
-    double sample(const double t) const override
+    double sample(const double t, const std::size_t n_places) const override
     {
-      return sample_load ? sample_load(t) : TimeLoad::sample(t);
+      return sample_load ? sample_load(t, n_places) : TimeLoad::sample(t, n_places);
     }
 
   private:
     const FEBody<dim> &body;
     const std::function<void(double, dealii::Vector<double> &)> add_load;
-    const std::function<double(double)> sample_load;
+    const std::function<double(double, std::size_t)> sample_load;
   };
 
   template <int dim>
@@ -251,7 +251,7 @@ namespace taut
 
   template <int dim>
   void FEBody<dim>::add_load(std::function<void(double, dealii::Vector<double> &)> add,
-                             std::function<double(double)> sample)
+                             std::function<double(double, std::size_t)> sample)
   {
     if (!add)
       throw UserError("body '" + name() + "': a load in time has no function; hand one over");

@@ -32,6 +32,24 @@ namespace taut
       return std::max(2L, std::min(wanted, most_samples / n_steps / n_excitations));
     }
 
+    /// Places at which a load in space is looked at in each sample, at least and at most, and the
+    /// evaluations of all loads together, about half a second.
+    constexpr std::size_t fewest_places = 8, most_places = 256;
+    constexpr double most_evaluations = 4e6;
+
+    std::size_t places_of_loads(const Structure &structure, const long n_steps)
+    {
+      std::size_t n_loads = 0;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        n_loads += structure[k].loads_in_time().size();
+      if (n_loads == 0 || n_steps < 1)
+        return fewest_places;
+      const double samples =
+          static_cast<double>(n_steps) * samples_in_step(n_steps, static_cast<long>(n_loads));
+      return static_cast<std::size_t>(std::clamp<double>(
+          most_evaluations / samples / static_cast<double>(n_loads), fewest_places, most_places));
+    }
+
     /// Longer runs are not searched: two samples a step are 2e7 for one excitation, half of
     /// most_samples.
     constexpr long most_steps = 10'000'000;
@@ -47,8 +65,13 @@ namespace taut
     /// half. Between what steps show it is a surprise, and may alone close a contact.
     constexpr double pulse_over_bend = 4., area_of_pulse = .005, range_of_pulse = .02;
 
-    /// Steps on both sides of a feature, and halvings, in the search of a step that sees it.
-    constexpr double around = 2.;
+    /// Steps on both sides of a feature, of the run and at most of the shorter ones, and halvings,
+    /// in the search of a step that sees it.
+    constexpr double around = 2., most_around = 64.;
+
+    /// Steps in the width of a feature beyond which shorter ones see no more: a jump at each end
+    /// loses a step of 2 %, which is lost_area, with fifty of them.
+    constexpr double most_in_feature = 500.;
     constexpr int most_halvings = 16;
 
     /// What the steps lose of one excitation.
@@ -228,13 +251,14 @@ namespace taut
       return sum;
     }
 
-    Excitation of_load(const Substructure &body, const std::shared_ptr<const TimeLoad> &load)
+    Excitation of_load(const Substructure &body, const std::shared_ptr<const TimeLoad> &load,
+                       const std::size_t n_places)
     {
       Excitation result{"the load on '" + body.name() + "'", body.origin(), true, false,
-                        [load](const double t) { return load->sample(t); }};
+                        [=](const double t) { return load->sample(t, n_places); }};
       try
       {
-        result.is_costly = std::isnan(load->sample(0.));
+        result.is_costly = std::isnan(load->sample(0., n_places));
       }
       catch (const UserError &)
       {
@@ -247,14 +271,16 @@ namespace taut
     }
   } // namespace
 
-  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints)
+  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints,
+                                      const long n_steps)
   {
+    const std::size_t n_places = places_of_loads(structure, n_steps);
     std::vector<Excitation> all;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
       for (const auto &load : body.loads_in_time())
-        all.push_back(of_load(body, load));
+        all.push_back(of_load(body, load, n_places));
       std::vector<const ConstrainedDof *> moving;
       for (const ConstrainedDof &constraint : body.constraints())
         if (constraint.motion)
@@ -290,24 +316,33 @@ namespace taut
       UnseenFeature result{excitation.name, excitation.origin};
       std::tie(result.width, result.time) = losses.narrowest();
       // Steps that get shorter, about the feature, which is an end of some of them.
-      constexpr double beside = .38;
-      const double first = std::max(start, result.time - around * step),
-                   length = std::min(result.time + around * step, start + n_steps * step) - first;
-      const bool is_start = first == start;
+      constexpr double phase = .38;
+      const auto looked_at = [&](const double length_of_step)
+      {
+        const double beside = std::min(around * step, result.width + most_around * length_of_step);
+        return std::pair(std::max(start, result.time - beside),
+                         std::min(result.time + beside, start + n_steps * step));
+      };
       const auto see_all = [&](const double length_of_step, const double offset)
       {
         constexpr double rounding = 1e-6; // of a number of steps
-        const auto whole = static_cast<long>(length / length_of_step + rounding);
+        const auto [first, end] = looked_at(length_of_step);
+        const auto whole = static_cast<long>((end - first) / length_of_step + rounding);
         const long n = std::max(1L, whole - (offset > 0.));
-        return Losses(excitation, at_rest, first_by_end && is_start,
-                      first + offset * length_of_step, length_of_step, n, samples_in_step(n, 1))
+        const double in_feature = std::ceil(samples_of_step * length_of_step / result.width);
+        return Losses(excitation, at_rest, first_by_end && first == start,
+                      first + offset * length_of_step, length_of_step, n,
+                      static_cast<long>(
+                          std::clamp<double>(in_feature, samples_of_step, samples_in_step(n, 1))))
             .sees_all();
       };
       result.longest_step = step;
-      for (int k = 0; k < most_halvings; ++k)
+      for (int k = 0; k < most_halvings && most_in_feature * result.longest_step > result.width;
+           ++k)
       {
         result.longest_step *= .5;
-        if (see_all(result.longest_step, 0.) && (is_start || see_all(result.longest_step, beside)))
+        if (see_all(result.longest_step, 0.) &&
+            (looked_at(result.longest_step).first == start || see_all(result.longest_step, phase)))
           break;
       }
       return result;

@@ -24,8 +24,10 @@ namespace taut
   };
 
   /// The excitations of the bodies of this rank, then, the same on all ranks, those of the
-  /// constraints. The arguments are kept by reference.
-  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints);
+  /// constraints. Loads in space are looked at in more places if a run has few steps. The first two
+  /// arguments are kept by reference.
+  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints,
+                                      long n_steps);
 
   /// What steps of one length do not see of an excitation.
   struct UnseenFeature
@@ -51,7 +53,8 @@ namespace taut
   /**
    * Looks for the narrowest feature of the excitations that the ends of steps do not see, in @p
    * n_steps steps of length @p step from @p start on [s]. A run is sampled at least twenty thousand
-   * times and each step eight times; a feature narrower than that may be missed. Loads without a
+   * times and each step eight times; a feature narrower than that may be missed, and so may be a
+   * load on less than a hundredth of a body, or an eighth in long runs. Loads without a
    * sample of their own and runs of more than ten million steps are not searched.
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids

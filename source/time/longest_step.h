@@ -19,6 +19,7 @@ namespace taut
     double contact_time = std::numeric_limits<double>::infinity();
     double damping_ratio = 0.;     ///< damping over the critical one, with this stiffness [1]
     const ForceLaw *law = nullptr; ///< of the spring; null: it is linear
+    double factor = 1.;            ///< steps are so many times as long, for comparisons
 
     /// At the largest stiffness of the spring [s].
     double shortest() const { return at_stiffness(1.); }
@@ -42,7 +43,7 @@ namespace taut
     /// a larger part of the critical one.
     double at_stiffness(const double part) const
     {
-      return contact_time /
+      return factor * contact_time /
              (steps_of_a_damped_contact * std::sqrt(part) + more_by_damping * damping_ratio);
     }
   };

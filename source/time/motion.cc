@@ -556,9 +556,9 @@ namespace taut
                                                                    : LoadsAtStart::unseen;
     if (!unseen)
       unseen = std::make_unique<UnseenFeature>(
-          parts ? find_unseen_feature(excitations(structure, constraints), structure.communicator(),
-                                      loads, initial->state.time, options.step,
-                                      parts->control.n_steps())
+          parts ? find_unseen_feature(excitations(structure, constraints, parts->control.n_steps()),
+                                      structure.communicator(), loads, initial->state.time,
+                                      options.step, parts->control.n_steps())
                 : UnseenFeature());
     return *unseen;
   }
@@ -566,9 +566,9 @@ namespace taut
   bool Motion::resolves_loads(const double length, const double tolerance)
   {
     if (!parts->loads)
-      parts->loads = std::make_unique<LoadSampling>(excitations(structure, constraints),
-                                                    structure.communicator(), options.step,
-                                                    .25 * unseen_feature().width);
+      parts->loads = std::make_unique<LoadSampling>(
+          excitations(structure, constraints, parts->control.n_steps()), structure.communicator(),
+          options.step, .25 * unseen_feature().width);
     return parts->loads->is_resolved(parts->state.time, length, tolerance);
   }
 

@@ -132,7 +132,8 @@ namespace taut
     const double first = motion.rows_before().multiplier[i], last = motion.state().multiplier[i];
     if (!(first > 0.) || !(last > 0.))
       return first > 0. || last > 0.;
-    return motion.state().time - last_open[i] < steps_of_rebound * longest_step(i, motion) ||
+    return motion.state().time - last_open[i] <
+               steps_of_rebound * longest_step(i, motion) / longest_steps[i].factor ||
            !(std::fabs(last - first) <= large_change * std::max(first, last));
   }
 

@@ -236,14 +236,16 @@ namespace taut
     check.end();
   }
 
-  /// The sum at a few places.
-  double WireComponent::DistributedLoad::sample(const double t) const
+  /// The sum at so many Gauss points, with weights that grow along the wire: the sum of a load that
+  /// moves would not change.
+  double WireComponent::DistributedLoad::sample(const double t, const std::size_t n_places) const
   {
-    constexpr std::size_t most_places = 8;
-    const std::size_t stride = elements.size() / most_places + 1;
+    constexpr std::size_t n_points = ElementLoad::n_points;
+    const std::size_t n = n_points * elements.size(), stride = n / n_places + 1;
     double sum = 0.;
-    for (std::size_t e = stride / 2; e < elements.size(); e += stride)
-      sum += magnitude(elements[e].places[0], t);
+    for (std::size_t p = stride / 2; p < n; p += stride)
+      sum += (.4 + static_cast<double>(p) / n) *
+             magnitude(elements[p / n_points].places[p % n_points], t);
     return sum;
   }
 } // namespace taut

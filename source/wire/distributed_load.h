@@ -34,7 +34,7 @@ namespace taut
                     const Expression::Separated::Travelling *product = nullptr);
 
     void add(double t, std::vector<double> &P) const override;
-    double sample(double t) const override;
+    double sample(double t, std::size_t n_places) const override;
 
   private:
     using Element = LoadedElement;

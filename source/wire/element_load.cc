@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace taut
@@ -35,6 +36,9 @@ namespace taut
     /// with a jump.
     constexpr double smooth = .2 * LoadIntegral::tolerance, jump = 4e-3 * LoadIntegral::tolerance;
     constexpr double narrowest_piece = 1e-13;
+
+    /// A load below this is nothing: numbers about it have no digits to integrate.
+    constexpr double least_load = std::numeric_limits<double>::min();
     constexpr unsigned int most_pieces = 1 << 15;
 
     using Moments = ElementLoad::Moments;
@@ -209,7 +213,7 @@ namespace taut
     }
     load.begins = pieces[0].values[0] != 0.;
     load.ends = pieces[n_pieces - 1].values[n_points - 1] != 0.;
-    sums.scale = std::max(size, seen_by_fine_pieces * load.largest);
+    sums.scale = std::max({size, seen_by_fine_pieces * load.largest, least_load});
     load.size = size;
     if (n_pieces == 1 && error <= kept * sums.scale)
       return load;
@@ -220,7 +224,8 @@ namespace taut
     load.size = 0.;
     for (unsigned int p = 0; p < n_pieces; ++p)
       refine(begin, h, t, pieces[p], sums);
-    const double scale = std::max({load.size, seen_by_fine_pieces * load.largest, typical()});
+    const double scale =
+        std::max({load.size, seen_by_fine_pieces * load.largest, typical(), least_load});
     load.is_resolved = sums.error <= tolerance * scale;
     load.take_cubic(sums.moments, kept * scale);
     return load;

@@ -185,6 +185,41 @@ TEST(UnseenFeatures, small_pulses_beside_a_slow_motion)
 }
 
 // A bending load at the end of a solid has neither a resultant nor a value in the middle.
+// Loads in space are looked at in so many places that a pulse on a part of a body is among them.
+TEST(UnseenFeatures, pulses_on_a_part_of_a_body)
+{
+  const std::string pulse = "(abs(t-0.05034) < 2e-5 ? 1 : 0)";
+  for (const std::string &pressure : {"3: 1e4*sin(30*t)+(x > 1.2 ? 1e8 : 0)*" + pulse,
+                                      "3: 1e4*sin(30*t)+exp(-((x-1.6)/0.1)^2)*1e8*" + pulse,
+                                      "3: 1e4*sin(30*t); 1: (y > 0.7 ? 1e8 : 0)*" + pulse})
+    for (const std::string mesh : {"4, 2", "16, 8"})
+    {
+      const std::string log =
+          log_of("Generator = network; Gravity = 0, 0; Start = given\n"
+                 "Body b: Type = solid; Young's modulus = 2e9; Density = 2000; Degree = 2;\n"
+                 "  Mass damping = 5; Fixed boundaries = 0\n"
+                 "Body b/Mesh: Arguments = " +
+                     mesh + " : 0, 0 : 2, 1\nTime: Step = 1e-4; End = 0.1\n",
+                 {"Body b.Pressure=" + pressure});
+      EXPECT_TRUE(has(log, "Warning: the load on 'b' changes for about")) << pressure << log;
+    }
+  for (const std::string load :
+       {"(abs(s-20.3) < 0.3 ? (abs(t-0.50037) < 2e-4 ? 1e6 : 0) : 0)",
+        "(abs(s-20.3) < 1 ? (abs(t-0.50037) < 2e-4 ? 3e5 : 0) : 0)",
+        "(abs(s-20.3+10*(t-0.5)) < 0.3 ? 1e6 : 0)*(abs(t-0.50037) < 2e-4 ? 1 : 0)"})
+  {
+    const std::string log =
+        log_of("Gravity = 0, 0\n"
+               "Wire w: To = 40, 0; Components = string; Mass per length = 1; Tension = 10000;\n"
+               "  Element size = 0.5; Mass damping = 0.5\n"
+               "Support ends: Wire = w; Positions = 0, 40\n"
+               "Load l: Type = distributed; On = w @ 0; Magnitude = 5*sin(3*t)+" +
+                   load + "\nTime: Step = 1e-3; End = 1\n",
+               {});
+    EXPECT_TRUE(has(log, "Warning: the load on 'w")) << load << log;
+  }
+}
+
 TEST(UnseenFeatures, traction_without_a_resultant)
 {
   const std::string log = log_of(

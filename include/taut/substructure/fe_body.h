@@ -88,7 +88,7 @@ namespace taut
     /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF. With a
     /// @p sample, see TimeLoad::sample(), runs look for pulses of the load between their steps.
     void add_load(std::function<void(double t, dealii::Vector<double> &P)> add,
-                  std::function<double(double)> sample = {});
+                  std::function<double(double t, std::size_t n_places)> sample = {});
 
     /// Adds a constant load, one entry a DoF [N]. Throws UserError for a load of another size, or a
     /// load that is not finite.
