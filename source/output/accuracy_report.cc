@@ -177,7 +177,7 @@ namespace taut
 
   /// Difference from a run to the same end with steps that are about so many times as long;
   /// nothing: no such run.
-  std::optional<StepAccuracy::Differences> StepAccuracy::compare(const double about,
+  std::optional<MotionRecord::Differences> StepAccuracy::compare(const double about,
                                                                  const std::function<bool()> &stop)
   {
     const long n = std::max(1L, std::lround(static_cast<double>(run.n_steps) / about));
@@ -204,8 +204,9 @@ namespace taut
           return std::nullopt;
         }
       }
-      return Differences{own.difference(other, 1.),
-                         own.difference(other, 1. - 2. * std::min(about, 1. / about))};
+      // Impacts of the better run are off by the ratio of both steps, and are at the ends of its
+      // steps: if they are off as much the other way, two of these ratios are missing.
+      return own.differences(other, 1. - 2. * std::min(about, 1. / about));
     }
     catch (const UserError &e)
     {
@@ -234,12 +235,14 @@ namespace taut
            static_cast<double>(n_iterations) *
                (work_of_step + static_cast<double>(run.motion.links().n_of_all()));
     const bool affords_shorter = affords(1. / ratio_of_steps);
-    std::optional<Differences> coarse;
+    std::optional<MotionRecord::Differences> coarse;
     // A looser tolerance says less than a tighter one.
     if (sees_all() && has_longer_steps(run) && affords(ratio_of_steps) &&
         !(affords_shorter && run.motion.settings().steps.adaptive()))
       coarse = compare(ratio_of_steps, stop);
-    if (coarse && (coarse->most.over_bounds() <= agrees || !affords_shorter))
+    const bool coarse_agrees = coarse && coarse->most.over_bounds() <= agrees &&
+                               coarse->most.impulse_at_end <= MotionDifference::impulse_bound;
+    if (coarse && (coarse_agrees || !affords_shorter))
     {
       extrapolate(coarse->most);
       return;
@@ -250,7 +253,7 @@ namespace taut
         reason = "runs with other steps take long: set Time/Check steps = yes for them";
       return;
     }
-    const std::optional<Differences> shorter = compare(1. / ratio_of_steps, stop);
+    const std::optional<MotionRecord::Differences> shorter = compare(1. / ratio_of_steps, stop);
     if (!shorter)
       return;
     const double least = shorter->least.over_bounds(), most = shorter->most.over_bounds();
@@ -297,8 +300,7 @@ namespace taut
     return {{"end",
              to_text("the impulse of '", run.motion.links()[found->row_at_end].name,
                      "' until the end of the run is off by ", percent(found->impulse_at_end),
-                     " of the largest: it has a contact there, which is early or late. Take a "
-                     "later Time/End"),
+                     " of the largest, as it is early or late there. Take a later Time/End"),
              found->impulse_at_end, MotionDifference::impulse_bound, "1", run.motion.state().time}};
   }
 

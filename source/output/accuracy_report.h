@@ -84,16 +84,8 @@ namespace taut
   private:
     bool affords(double about) const;
     bool sees_all() const { return !std::isfinite(run.seeing_step); }
-
-    /// From a run in other steps. Its own impacts are off by the ratio of both steps, and are at
-    /// the ends of its steps: if they are off as much the other way, two of these ratios are
-    /// missing.
-    struct Differences
-    {
-      MotionDifference least; ///< what is beyond the shift of impacts that the bounds allow
-      MotionDifference most;  ///< beyond this shift but for two ratios of the steps
-    };
-    std::optional<Differences> compare(double about, const std::function<bool()> &stop);
+    std::optional<MotionRecord::Differences> compare(double about,
+                                                     const std::function<bool()> &stop);
     void extrapolate(MotionDifference coarse);
     double shortened(double over_bounds) const;
     std::vector<Warning> warning_of_end() const;

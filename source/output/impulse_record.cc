@@ -90,14 +90,14 @@ namespace taut
         continue;
       }
       item_of[i] = items.size();
-      items.push_back(
-          {rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational});
+      items.push_back({rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational,
+                       constraints[rows[i]].cone.may_open()});
     }
     most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, items.size()), fewest_ends,
                            most_ends_of_few) /
                 2 * 2;
     impulse.assign(items.size(), 0.);
-    impulses.reserve((most_ends + 1) * items.size());
+    impulses.reserve(std::min((most_ends + 1) * items.size(), most_numbers));
     impulses = impulse;
   }
 
@@ -110,11 +110,14 @@ namespace taut
           (report.is_mean(rows[i]) ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
-    if (++n_steps % stride != 0)
-      return;
+    if (n_steps++ % stride != 0) // the last end is none of those to be kept
+    {
+      times.pop_back();
+      impulses.resize(impulses.size() - impulse.size());
+    }
     times.push_back(state.time);
     impulses.insert(impulses.end(), impulse.begin(), impulse.end());
-    if (times.size() > most_ends)
+    if (times.size() > most_ends && n_steps % stride == 0)
       keep_every_second_end();
   }
 
@@ -188,12 +191,6 @@ namespace taut
     std::size_t n_both = 0;
     for (; n_both < n_times && times[n_both] <= other.times.back() + rounding; ++n_both)
       ;
-    for (std::size_t i = 0; i < n && n_both > 0; ++i)
-      if (const double d =
-              ratio(std::fabs(impulses[(n_both - 1) * n + i] - other.at(same[n_both - 1], i)),
-                    largest[items[i].group]);
-          d > result.at_end)
-        std::tie(result.at_end, result.row_at_end) = std::pair(d, items[i].row);
     for (std::size_t k = 0; k < n_both; ++k)
       for (std::size_t i = 0; i < n; ++i)
       {
@@ -201,15 +198,22 @@ namespace taut
         std::size_t first = k, last = k;
         while (first > 0 && times[k] - times[first - 1] <= shift * late[q])
           --first;
-        while (last + 1 < n_times && times[last + 1] - times[k] <= shift * late[q])
+        while (last + 1 < n_both && times[last + 1] - times[k] <= shift * late[q])
           ++last;
+        const auto of_own = [&](const std::size_t j) { return impulses[j * n + i]; };
         const auto of_others = [&](const std::size_t j) {
           return other.at(j <= last ? same[j] : j == last + 1 ? earlier[k] : later[k], i);
         };
-        const double d =
-            ratio(distance_to_range(impulses[k * n + i], first, last + 2, of_others), largest[q]);
-        if (d > result.largest || d != d)
+        double off = distance_to_range(of_own(k), first, last + 2, of_others);
+        // Near the end an impact that is early here would follow there.
+        if (last + 1 == n_both && k > 0)
+          off = std::min(
+              off, distance_to_range(other.at(same[k], i), std::min(first, k - 1), k, of_own));
+        if (const double d = ratio(off, largest[q]); d > result.largest || d != d)
           std::tie(result.largest, result.row) = std::pair(d, items[i].row);
+        const double at_end = ratio(std::fabs(of_own(k) - other.at(same[k], i)), largest[q]);
+        if (k + 1 == n_both && items[i].may_open && at_end > result.at_end)
+          std::tie(result.at_end, result.row_at_end) = std::pair(at_end, items[i].row);
       }
     return result;
   }

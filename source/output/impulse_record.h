@@ -15,7 +15,8 @@ namespace taut
   /**
    * Impulses of constraints, but for cuts, since the start, at the ends of
    * steps. Use it to compare contacts of runs in other steps: a contact may be shorter than an
-   * interval between samples. A long run keeps every second end, fourth end, and so on.
+   * interval between samples. A long run keeps every second end, fourth end, and so on, and the
+   * last one.
    *
    * Three or more rigid unilateral constraints on the same DoFs of lumped bodies may share an
    * impulse in any way, as the legs of a box do. Their sum counts.
@@ -30,8 +31,8 @@ namespace taut
     /// Records an accepted step.
     void record(const State &state, const StepReport &report);
 
-    /// Relative differences, the largest and that at the end of the comparison, where nothing may
-    /// be early or late, and their constraints; -1: nothing differs.
+    /// Relative differences, the largest and that of unilateral constraints at the end of the
+    /// comparison, where nothing may be early or late, and their constraints; -1: nothing differs.
     struct Difference
     {
       double largest = 0., at_end = 0.; ///< [1]
@@ -73,6 +74,7 @@ namespace taut
     {
       std::size_t row;   ///< the first one
       std::size_t group; ///< 2 g, or 2 g + 1 of rotational ones
+      bool may_open;
     };
     std::vector<std::size_t> rows; ///< all but cuts
     std::vector<Item> items;
@@ -81,7 +83,7 @@ namespace taut
 
     std::vector<double> impulse;    ///< of the items so far [N s, N m s]
     std::vector<double> multiplier; ///< of the rows in the last step
-    std::vector<double> times;      ///< ends of steps with recorded impulses [s]
+    std::vector<double> times;      ///< ends of steps with recorded impulses; the last one [s]
     std::vector<double> impulses;   ///< of all items, time after time
     long stride = 1, n_steps = 0;   ///< one of so many ends is kept; steps so far
   };

@@ -356,10 +356,10 @@ namespace taut
     result.time = all.max(is_here ? time : 0.);
   }
 
-  void MotionRecord::compare_energies(const MotionRecord &other, const Sizes &size,
-                                      const double shift, MotionDifference &result) const
+  void MotionRecord::compare_energies(const Energies &own, const Energies &others,
+                                      const Sizes &size, const double shift,
+                                      MotionDifference &result) const
   {
-    const Energies own = energies_of_all(), others = other.energies_of_all();
     const std::size_t n_groups = groups.n_groups(),
                       n_both = std::min(own.size(), others.size()) / n_groups;
     const auto change = [=](const Energies &of, const std::size_t s, const std::size_t g)
@@ -370,41 +370,43 @@ namespace taut
     for (std::size_t g = 0; g < n_groups; ++g)
     {
       const double late = shift * std::max(size.late[2 * g], size.late[2 * g + 1]),
-                   window = std::floor(late / interval);
+                   window = std::max(1., std::floor(late / interval));
       const bool moves = size.place[2 * g] > 0. || size.place[2 * g + 1] > 0.;
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
       for (std::size_t s = 0; s < n_both && moves; ++s)
       {
         const std::size_t first = s > w ? s - w : 0, last = std::min(s + w, n_both - 1);
-        const auto of_others = [&](const std::size_t j)
-        {
-          if (j <= last)
-            return change(others, j, g);
-          // A bit earlier and later.
-          const std::size_t next =
-              j == last + 1 ? std::max<std::size_t>(s, 1) - 1 : std::min(s + 1, n_both - 1);
-          return change(others, s, g) + shift * (change(others, next, g) - change(others, s, g));
-        };
-        result.energy = worse(
-            ratio(distance_to_range(change(own, s, g), first, last + 2, of_others), size.energy[g]),
-            result.energy);
+        const auto of_own = [&](const std::size_t j) { return change(own, j, g); };
+        const auto of_others = [&](const std::size_t j) { return change(others, j, g); };
+        double off = distance_to_range(of_own(s), first, last, of_others);
+        // Near the end an impact that is early here would follow there.
+        if (last + 1 == n_both)
+          off = std::min(off, distance_to_range(of_others(s), first, s, of_own));
+        result.energy = worse(ratio(off, size.energy[g]), result.energy);
       }
     }
   }
 
-  MotionDifference MotionRecord::difference(const MotionRecord &other, const double shift) const
+  MotionRecord::Differences MotionRecord::differences(const MotionRecord &other,
+                                                      const double shift) const
   {
     Sizes size = other.sizes();
     size.add(sizes());
-    MotionDifference result;
-    compare_places(other, size, result);
-    const ImpulseRecord::Difference of_impulses = impulses.difference(
-        other.impulses, size.impulse, size.late, shift, rounding_of_times * interval);
-    std::tie(result.impulse, result.row) = std::pair(of_impulses.largest, of_impulses.row);
-    std::tie(result.impulse_at_end, result.row_at_end) =
-        std::pair(of_impulses.at_end, of_impulses.row_at_end);
-    compare_energies(other, size, shift, result);
-    return result;
+    const Energies own_energies = energies_of_all(), others = other.energies_of_all();
+    MotionDifference of_places;
+    compare_places(other, size, of_places);
+    const auto within = [&](const double part)
+    {
+      MotionDifference result = of_places;
+      const ImpulseRecord::Difference of_impulses = impulses.difference(
+          other.impulses, size.impulse, size.late, part, rounding_of_times * interval);
+      std::tie(result.impulse, result.row) = std::pair(of_impulses.largest, of_impulses.row);
+      std::tie(result.impulse_at_end, result.row_at_end) =
+          std::pair(of_impulses.at_end, of_impulses.row_at_end);
+      compare_energies(own_energies, others, size, part, result);
+      return result;
+    };
+    return {within(1.), within(shift)};
   }
 
   /// Places by number of the body, as a continued run may have bodies on other ranks.

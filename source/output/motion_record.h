@@ -64,14 +64,20 @@ namespace taut
 
     std::size_t n_samples() const { return n_recorded; }
 
+    /// From another motion. The bounds allow an impact to be early or late by a step, or by the
+    /// time in which the fastest place moves as far as their bound.
+    struct Differences
+    {
+      MotionDifference least; ///< beyond this shift of impacts
+      MotionDifference most;  ///< beyond a part of it
+    };
+
     /**
-     * Difference of this motion from another one, sample by sample. Impulses and energies jump at
-     * an impact. The bounds allow an impact to be early or late by a step, or by the time in which
-     * the fastest place moves as far as their bound. Impulses and energies may hence have any value
-     * that the other motion has within a part of this time, @p shift [1]. Called by all ranks
-     * together.
+     * Differences of this motion from another one, sample by sample. Impulses and energies jump at
+     * an impact: they may have any value that the other motion has within the shift, or within the
+     * part @p shift [1] of it. Called by all ranks together.
      */
-    MotionDifference difference(const MotionRecord &other, double shift) const;
+    Differences differences(const MotionRecord &other, double shift) const;
 
     /// Stores the data of all ranks. Called by all ranks together.
     void save(OutputArchive &archive);
@@ -97,8 +103,8 @@ namespace taut
     std::vector<double> rounding() const;
     void compare_places(const MotionRecord &other, const Sizes &size,
                         MotionDifference &result) const;
-    void compare_energies(const MotionRecord &other, const Sizes &size, double shift,
-                          MotionDifference &result) const;
+    void compare_energies(const Energies &own, const Energies &others, const Sizes &size,
+                          double shift, MotionDifference &result) const;
 
     const Structure &structure;
     const Constraints &constraints;

@@ -215,21 +215,28 @@ namespace taut
   /// What lies between the steps, as a warning.
   std::vector<Warning> Simulation::unseen_features() const
   {
-    const UnseenFeature &feature = motion->unseen_feature();
+    const UnseenFeature &narrowest = motion->unseen_feature(),
+                        &feature = narrowest.local ? *narrowest.local : narrowest;
     const StepParameters &control = motion->settings().steps;
     const double shortest = control.shortest(parameters.step);
-    if (feature.name.empty() || shortest <= feature.longest_step)
+    if (feature.name.empty() || (shortest <= feature.longest_step && !narrowest.local))
       return {};
     std::string message =
         to_text(std::setprecision(2), feature.name, " changes for about ", feature.width,
                 " s at t = ", std::setprecision(4), feature.time, " s, ", std::setprecision(2));
-    if (control.adaptive())
-      message += to_text("and the shortest step is ", shortest, " s. Set Adaptive step/Halvings = ",
-                         std::ceil(std::log2(parameters.step / feature.longest_step)));
-    else
+    if (!control.adaptive())
       message += to_text("which steps of ", parameters.step,
                          " s do not see, or make too much of. Take a step of at most ",
-                         feature.longest_step, " s, or Step control = adaptive");
+                         feature.longest_step, " s",
+                         feature.is_local ? "" : ", or Step control = adaptive");
+    else if (narrowest.local)
+      message +=
+          to_text("on a part of the body, which adaptive steps do not see. Take Step control "
+                  "= fixed with a Step of at most ",
+                  feature.longest_step, " s");
+    else
+      message += to_text("and the shortest step is ", shortest, " s. Set Adaptive step/Halvings = ",
+                         std::ceil(std::log2(parameters.step / feature.longest_step)));
     return {{"feature", message, shortest, feature.longest_step, "s", feature.time}};
   }
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace taut
@@ -22,9 +23,11 @@ namespace taut
       dealii::FEFaceValues<dim> values(mesh.mapping(), mesh.dof_handler().get_fe(), quadrature,
                                        dealii::update_quadrature_points);
       std::vector<Coordinates> places;
-      for (std::size_t f = 0; f < faces.size(); f += faces.size() / most_faces + 1)
+      const std::size_t n = std::min(most_faces, faces.size());
+      for (std::size_t k = 0; k < n; ++k)
       {
-        values.reinit(faces[f].first, faces[f].second);
+        const auto &[cell, face] = faces[(2 * k + 1) * faces.size() / (2 * n)];
+        values.reinit(cell, face);
         for (const dealii::Point<dim> &point : values.get_quadrature_points())
           places.push_back(coordinates<dim>(point));
       }
@@ -87,19 +90,23 @@ namespace taut
         continue;
       }
       const std::vector<Coordinates> places = sampled_places<dim>(*mesh, quadrature, faces);
-      this->add_load(add,
-                     [&condition, places](const double t, const std::size_t n_places)
-                     {
-                       double sum = 0.;
-                       UnlikeWeights weights;
-                       for (std::size_t p = 0; p < places.size(); p += places.size() / n_places + 1)
-                       {
-                         const Coordinates value = condition.value(places[p], t);
-                         for (const double force : {value.x, value.y, value.z})
-                           sum += weights.next() * force;
-                       }
-                       return sum;
-                     });
+      const auto sample = [&condition, places](const double t, const std::size_t n_places)
+      {
+        double sum = 0.;
+        UnlikeWeights weights;
+        const std::size_t n = std::min(n_places, places.size());
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          const Coordinates value =
+              condition.value(places[(2 * k + 1) * places.size() / (2 * n)], t);
+          for (const double force : {value.x, value.y, value.z})
+            sum += weights.next() * force;
+        }
+        return sum;
+      };
+      constexpr std::size_t few_places = 8;
+      this->add_load(
+          add, [=](const double t) { return sample(t, few_places); }, sample);
     }
   }
 

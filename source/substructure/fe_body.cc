@@ -56,8 +56,10 @@ namespace taut
   {
   public:
     Load(const FEBody<dim> &body, std::function<void(double, dealii::Vector<double> &)> add,
-         std::function<double(double, std::size_t)> sample)
-        : body(body), add_load(std::move(add)), sample_load(std::move(sample))
+         std::function<double(double)> sample,
+         std::function<double(double, std::size_t)> sample_at_places)
+        : body(body), add_load(std::move(add)), sample_load(std::move(sample)),
+          sample_places(std::move(sample_at_places))
     {
     }
     void add(const double t, std::vector<double> &P) const override
@@ -67,15 +69,20 @@ namespace taut
       body.check_size(own.size(), "load in time");
       body.condense(own, P);
     }
-    double sample(const double t, const std::size_t n_places) const override
+    double sample(const double t) const override
     {
-      return sample_load ? sample_load(t, n_places) : TimeLoad::sample(t, n_places);
+      return sample_load ? sample_load(t) : TimeLoad::sample(t);
+    }
+    double sample_at_places(const double t, const std::size_t n_places) const override
+    {
+      return sample_places ? sample_places(t, n_places) : TimeLoad::sample_at_places(t, n_places);
     }
 
   private:
     const FEBody<dim> &body;
     const std::function<void(double, dealii::Vector<double> &)> add_load;
-    const std::function<double(double, std::size_t)> sample_load;
+    const std::function<double(double)> sample_load;
+    const std::function<double(double, std::size_t)> sample_places;
   };
 
   template <int dim>
@@ -251,11 +258,13 @@ namespace taut
 
   template <int dim>
   void FEBody<dim>::add_load(std::function<void(double, dealii::Vector<double> &)> add,
-                             std::function<double(double, std::size_t)> sample)
+                             std::function<double(double)> sample,
+                             std::function<double(double, std::size_t)> sample_at_places)
   {
     if (!add)
       throw UserError("body '" + name() + "': a load in time has no function; hand one over");
-    time_loads.push_back(std::make_unique<Load>(*this, std::move(add), std::move(sample)));
+    time_loads.push_back(std::make_unique<Load>(*this, std::move(add), std::move(sample),
+                                                std::move(sample_at_places)));
   }
 
   template <int dim>

@@ -32,23 +32,14 @@ namespace taut
       return std::max(2L, std::min(wanted, most_samples / n_steps / n_excitations));
     }
 
-    /// Places at which a load in space is looked at in each sample, at least and at most, and the
-    /// evaluations of all loads together, about half a second.
+    /// Places at which a load in space is looked at if a few do not show a feature, at least and at
+    /// most, and the evaluations of all such loads together, about half a second.
     constexpr std::size_t fewest_places = 8, most_places = 256;
     constexpr double most_evaluations = 4e6;
 
-    std::size_t places_of_loads(const Structure &structure, const long n_steps)
-    {
-      std::size_t n_loads = 0;
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        n_loads += structure[k].loads_in_time().size();
-      if (n_loads == 0 || n_steps < 1)
-        return fewest_places;
-      const double samples =
-          static_cast<double>(n_steps) * samples_in_step(n_steps, static_cast<long>(n_loads));
-      return static_cast<std::size_t>(std::clamp<double>(
-          most_evaluations / samples / static_cast<double>(n_loads), fewest_places, most_places));
-    }
+    /// Part of what the places show that all forces have to show, both relative to their sizes, and
+    /// number of forces in all samples up to which these alone are looked at, about a second.
+    constexpr double least_shown = .3, most_forces = 5e7;
 
     /// Longer runs are not searched: two samples a step are 2e7 for one excitation, half of
     /// most_samples.
@@ -251,14 +242,29 @@ namespace taut
       return sum;
     }
 
-    Excitation of_load(const Substructure &body, const std::shared_ptr<const TimeLoad> &load,
-                       const std::size_t n_places)
+    /// The sum of the sizes of the forces, but not of moments; or of all with weights from 0.4
+    /// to 1.4 that grow. Both change slowly as a load moves.
+    double slow_sum(const Substructure &body, const TimeLoad &load, const double t,
+                    const bool of_sizes, std::vector<double> &P)
+    {
+      std::fill(P.begin(), P.end(), 0.);
+      load.add(t, P);
+      double sum = 0.;
+      const auto n = static_cast<double>(P.size());
+      for (unsigned int i = 0; i < P.size(); ++i)
+        sum += !of_sizes ? (.4 + i / n) * P[i] : body.kind(i) == 0 ? std::fabs(P[i]) : 0.;
+      return sum;
+    }
+
+    Excitation of_load(const Substructure &body, const std::shared_ptr<const TimeLoad> &load)
     {
       Excitation result{"the load on '" + body.name() + "'", body.origin(), true, false,
-                        [=](const double t) { return load->sample(t, n_places); }};
+                        [load](const double t) { return load->sample(t); }};
+      bool is_in_space = false;
       try
       {
-        result.is_costly = std::isnan(load->sample(0., n_places));
+        result.is_costly = std::isnan(load->sample(0.));
+        is_in_space = !std::isnan(load->sample_at_places(0., 1));
       }
       catch (const UserError &)
       {
@@ -267,20 +273,27 @@ namespace taut
       if (result.is_costly)
         result.at = [load, P = std::vector<double>(body.n_dofs())](const double t) mutable
         { return weighted_sum(*load, t, P); };
+      if (is_in_space)
+      {
+        result.at_places = [load](const double t, const std::size_t n)
+        { return load->sample_at_places(t, n); };
+        result.n_dofs = body.n_dofs();
+        result.of_all_forces = [&body, load, P = std::vector<double>(body.n_dofs())](
+                                   const double t, const bool of_sizes) mutable
+        { return slow_sum(body, *load, t, of_sizes, P); };
+      }
       return result;
     }
   } // namespace
 
-  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints,
-                                      const long n_steps)
+  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints)
   {
-    const std::size_t n_places = places_of_loads(structure, n_steps);
     std::vector<Excitation> all;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
       for (const auto &load : body.loads_in_time())
-        all.push_back(of_load(body, load, n_places));
+        all.push_back(of_load(body, load));
       std::vector<const ConstrainedDof *> moving;
       for (const ConstrainedDof &constraint : body.constraints())
         if (constraint.motion)
@@ -347,21 +360,99 @@ namespace taut
       }
       return result;
     }
+
+    /// How far a value is at the time of a feature from the mean of those that are its width
+    /// earlier and later, over the largest of the three.
+    template <typename Value>
+    double bump(const UnseenFeature &feature, const double start, const double end,
+                const Value &value)
+    {
+      const double a = value(std::max(start, feature.time - feature.width)),
+                   b = value(std::min(feature.time + feature.width, end)),
+                   now = value(feature.time), off = std::fabs(now - .5 * (a + b));
+      return off > 0. ? off / std::max({std::fabs(a), std::fabs(b), std::fabs(now)}) : 0.;
+    }
+
+    /// Looks at a load in space in places that @p seen has, and returns what all forces show, too.
+    /// Where they do not, they are looked at alone, if this is cheap.
+    UnseenFeature look_in_space(const Excitation &excitation, const Excitation &seen,
+                                const LoadsAtStart loads, const double start, const double step,
+                                const long n_steps, const long n_samples)
+    {
+      const double end = start + static_cast<double>(n_steps) * step;
+      UnseenFeature result = look_for(seen, loads, start, step, n_steps, n_samples);
+      if (result.name.empty())
+        return result;
+      try
+      {
+        const double wanted = least_shown * bump(result, start, end, seen.at);
+        for (const bool of_sizes : {false, true})
+        {
+          const double shown =
+              bump(result, start, end,
+                   [&](const double t) { return excitation.of_all_forces(t, of_sizes); });
+          if (shown >= wanted)
+            return result;
+        }
+      }
+      catch (const UserError &)
+      {
+        return result; // the load is so narrow that it cannot be integrated
+      }
+      const double n_forces = static_cast<double>(n_steps) * static_cast<double>(n_samples) *
+                              static_cast<double>(excitation.n_dofs);
+      if (n_forces > most_forces)
+        return {};
+      Excitation as_a_whole = excitation;
+      as_a_whole.at = [&](const double t) { return excitation.of_all_forces(t, false); };
+      return look_for(as_a_whole, loads, start, step, n_steps, n_samples);
+    }
+
+    /// What many places show of a load in space, and few do not.
+    UnseenFeature look_closely(const Excitation &excitation, const std::size_t n_places,
+                               const LoadsAtStart loads, const double start, const double step,
+                               const long n_steps, const long n_samples)
+    {
+      const double end = start + static_cast<double>(n_steps) * step;
+      Excitation closely = excitation;
+      closely.at = [&](const double t) { return excitation.at_places(t, n_places); };
+      UnseenFeature result =
+          look_in_space(excitation, closely, loads, start, step, n_steps, n_samples);
+      if (result.name.empty() || bump(result, start, end, excitation.at) >=
+                                     least_shown * bump(result, start, end, closely.at))
+        return {};
+      result.is_local = true;
+      return result;
+    }
   } // namespace
 
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
                                     const Communicator &processes, const LoadsAtStart loads,
-                                    const double start, const double step, const long n_steps)
+                                    const double start, const double step, const long n_steps,
+                                    const Places places)
   {
     UnseenFeature narrowest;
     if (n_steps < 1 || n_steps > most_steps)
       return narrowest;
     const long n_samples = samples_in_step(n_steps, static_cast<long>(all.size()) + 1);
+    double n_in_space = 0.;
+    for (const Excitation &excitation : all)
+      n_in_space += excitation.at_places != nullptr;
+    const auto n_places = static_cast<std::size_t>(
+        std::min<double>(most_places, most_evaluations / static_cast<double>(n_steps) /
+                                          static_cast<double>(n_samples) / n_in_space));
     for (const Excitation &excitation : all)
       if (!excitation.is_costly)
         try
         {
-          const UnseenFeature own = look_for(excitation, loads, start, step, n_steps, n_samples);
+          if (places == Places::many && (!excitation.at_places || n_places <= fewest_places))
+            continue;
+          const UnseenFeature own =
+              places == Places::many
+                  ? look_closely(excitation, n_places, loads, start, step, n_steps, n_samples)
+              : excitation.at_places
+                  ? look_in_space(excitation, excitation, loads, start, step, n_steps, n_samples)
+                  : look_for(excitation, loads, start, step, n_steps, n_samples);
           if (own.width < narrowest.width)
             narrowest = own;
         }
@@ -376,6 +467,7 @@ namespace taut
     const bool is_own = narrowest.width == least;
     narrowest.width = least;
     narrowest.time = processes.max(is_own ? narrowest.time : -1.);
+    narrowest.is_local = processes.any(is_own && narrowest.is_local);
     narrowest.longest_step =
         -processes.max(is_own ? -narrowest.longest_step : -std::numeric_limits<double>::infinity());
     for (std::string *const text : {&narrowest.name, &narrowest.origin})

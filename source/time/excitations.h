@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,19 @@ namespace taut
     bool is_load;       ///< acts by its impulse; else a place [m, rad]
     bool is_costly;     ///< a value costs as much as all forces of the load
     std::function<double(double)> at; ///< value at a time [s]; of a load in space a sum of samples
+
+    /// Of a load in space the same sum at so many places; else empty.
+    std::function<double(double, std::size_t)> at_places = nullptr;
+
+    /// Of a load in space the sum of all its forces, with weights that grow from DoF to DoF, or
+    /// that of their sizes; else empty. And the number of DoFs.
+    std::function<double(double, bool)> of_all_forces = nullptr;
+    unsigned int n_dofs = 0;
   };
 
   /// The excitations of the bodies of this rank, then, the same on all ranks, those of the
-  /// constraints. Loads in space are looked at in more places if a run has few steps. The first two
-  /// arguments are kept by reference.
-  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints,
-                                      long n_steps);
+  /// constraints. The arguments are kept by reference.
+  std::vector<Excitation> excitations(const Structure &structure, const Constraints &constraints);
 
   /// What steps of one length do not see of an excitation.
   struct UnseenFeature
@@ -39,6 +46,20 @@ namespace taut
 
     /// The longest step that sees it, a part of the step by a power of two [s].
     double longest_step = std::numeric_limits<double>::infinity();
+
+    /// Whether few places of a load in space, at which adaptive steps look, do not show it.
+    bool is_local = false;
+
+    /// Of adaptive steps, which look at few places: the narrowest local one that their longest step
+    /// does not see; null: there is none.
+    std::shared_ptr<const UnseenFeature> local = nullptr;
+  };
+
+  /// Where loads in space are looked at.
+  enum class Places
+  {
+    few,
+    many
   };
 
   /// What the first step makes of loads at the start: they are in balance there; they count as at
@@ -53,9 +74,12 @@ namespace taut
   /**
    * Looks for the narrowest feature of the excitations that the ends of steps do not see, in @p
    * n_steps steps of length @p step from @p start on [s]. A run is sampled at least twenty thousand
-   * times and each step eight times; a feature narrower than that may be missed, and so may be a
-   * load on less than a hundredth of a body, or an eighth in long runs. Loads without a
+   * times and each step eight times; a feature narrower than that may be missed. Loads without a
    * sample of their own and runs of more than ten million steps are not searched.
+   *
+   * Of loads in space a few places show all but what is local. With Places::many only what they do
+   * not show is looked for, in up to 256 places if a run is not too long. Edges of a load that
+   * moves pass places, which is no feature: all forces together have to show it, too.
    *
    * Loads act by their impulse. Compared are the area below the samples and that of the trapezoids
    * between the ends of steps, and so their moments about the middle of the step, which opposite
@@ -68,7 +92,7 @@ namespace taut
    */
   UnseenFeature find_unseen_feature(const std::vector<Excitation> &all,
                                     const Communicator &processes, LoadsAtStart loads, double start,
-                                    double step, long n_steps);
+                                    double step, long n_steps, Places places);
 } // namespace taut
 
 #endif

@@ -554,21 +554,38 @@ namespace taut
     const LoadsAtStart loads = options.start == Start::equilibrium ? LoadsAtStart::balanced
                                : first_scheme == integrator        ? LoadsAtStart::seen
                                                                    : LoadsAtStart::unseen;
-    if (!unseen)
-      unseen = std::make_unique<UnseenFeature>(
-          parts ? find_unseen_feature(excitations(structure, constraints, parts->control.n_steps()),
-                                      structure.communicator(), loads, initial->state.time,
-                                      options.step, parts->control.n_steps())
-                : UnseenFeature());
+    if (unseen)
+      return *unseen;
+    unseen = std::make_unique<UnseenFeature>();
+    if (!parts)
+      return *unseen;
+    const std::vector<Excitation> all = excitations(structure, constraints);
+    const bool is_adaptive = options.steps.adaptive();
+    const long n_steps = parts->control.n_steps();
+    const auto find = [&](const Places places, const double step)
+    {
+      const auto n = static_cast<long>(static_cast<double>(n_steps) * options.step / step + .5);
+      return find_unseen_feature(all, structure.communicator(), loads, initial->state.time, step,
+                                 std::max(1L, n), places);
+    };
+    *unseen = find(Places::few, options.step);
+    const UnseenFeature local =
+        find(Places::many, is_adaptive ? options.steps.longest(options.step) : options.step);
+    if (local.name.empty())
+      return *unseen;
+    if (is_adaptive)
+      unseen->local = std::make_shared<const UnseenFeature>(local);
+    else if (local.width < unseen->width)
+      *unseen = local;
     return *unseen;
   }
 
   bool Motion::resolves_loads(const double length, const double tolerance)
   {
     if (!parts->loads)
-      parts->loads = std::make_unique<LoadSampling>(
-          excitations(structure, constraints, parts->control.n_steps()), structure.communicator(),
-          options.step, .25 * unseen_feature().width);
+      parts->loads = std::make_unique<LoadSampling>(excitations(structure, constraints),
+                                                    structure.communicator(), options.step,
+                                                    .25 * unseen_feature().width);
     return parts->loads->is_resolved(parts->state.time, length, tolerance);
   }
 

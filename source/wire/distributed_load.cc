@@ -238,14 +238,18 @@ namespace taut
 
   /// The sum at so many Gauss points, with weights that grow along the wire: the sum of a load that
   /// moves would not change.
-  double WireComponent::DistributedLoad::sample(const double t, const std::size_t n_places) const
+  double WireComponent::DistributedLoad::sample_at_places(const double t,
+                                                          const std::size_t n_places) const
   {
     constexpr std::size_t n_points = ElementLoad::n_points;
-    const std::size_t n = n_points * elements.size(), stride = n / n_places + 1;
+    const std::size_t n_all = n_points * elements.size(), n = std::min(n_places, n_all);
     double sum = 0.;
-    for (std::size_t p = stride / 2; p < n; p += stride)
-      sum += (.4 + static_cast<double>(p) / n) *
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const std::size_t p = (2 * k + 1) * n_all / (2 * n);
+      sum += (.4 + static_cast<double>(p) / static_cast<double>(n_all)) *
              magnitude(elements[p / n_points].places[p % n_points], t);
+    }
     return sum;
   }
 } // namespace taut

@@ -34,7 +34,8 @@ namespace taut
                     const Expression::Separated::Travelling *product = nullptr);
 
     void add(double t, std::vector<double> &P) const override;
-    double sample(double t, std::size_t n_places) const override;
+    double sample(double t) const override { return sample_at_places(t, 8); }
+    double sample_at_places(double t, std::size_t n_places) const override;
 
   private:
     using Element = LoadedElement;

@@ -89,7 +89,7 @@ namespace taut
       shape.add_to(factor * load.magnitude(s, t), P);
     }
 
-    double sample(const double t, std::size_t /*n_places*/) const override
+    double sample(const double t) const override
     {
       const double s = load.target.position + way(load, t);
       return s < 0. || s > wire.wire_length ? 0. : load.magnitude(s, t);
@@ -176,7 +176,7 @@ namespace taut
           product.shape.add_to(product.of_time(0., t), P);
       }
 
-      double sample(const double t, std::size_t /*n_places*/) const override
+      double sample(const double t) const override
       {
         double sum = 0.;
         for (const Product &product : products)

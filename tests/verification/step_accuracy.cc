@@ -185,6 +185,11 @@ Time: Step = 1e-3
                     later = log_of(scene, {"Time.End=1.1"});
   EXPECT_TRUE(has(in_contact, warning)) << in_contact;
   EXPECT_FALSE(has(later, "Warning")) << later;
+  // Of this many steps every eighth end is kept.
+  const std::string long_run =
+      log_of(scene, {"Time.End=10", "Mass m.Initial velocity=0, -0.0999, 0", "Link k.Gap=0.99898",
+                     "Time.Check steps=yes"});
+  EXPECT_TRUE(has(long_run, warning)) << long_run;
 }
 
 // A stop with 0.14 of the critical damping and contacts of 0.7 ms, which the run resolves by 32

@@ -54,6 +54,17 @@ namespace
            "Time: Step = 1e-3; End = 1\n";
   }
 
+  /// A string under a load along it.
+  std::string wire(const std::string &load)
+  {
+    return "Gravity = 0, 0\n"
+           "Wire w: To = 40, 0; Components = string; Mass per length = 1; Tension = 10000;\n"
+           "  Element size = 0.5; Mass damping = 0.5\n"
+           "Support ends: Wire = w; Positions = 0, 40\n"
+           "Load l: Type = distributed; On = w @ 0; Magnitude = 5*sin(3*t)+" +
+           load + "\nTime: Step = 1e-3; End = 1\n";
+  }
+
   /// The largest displacement of the last body at multiples of a step.
   std::vector<double> motion_of(const std::string &scene, const double step,
                                 const Overrides &overrides, std::string *const log = nullptr)
@@ -208,15 +219,24 @@ TEST(UnseenFeatures, pulses_on_a_part_of_a_body)
         "(abs(s-20.3) < 1 ? (abs(t-0.50037) < 2e-4 ? 3e5 : 0) : 0)",
         "(abs(s-20.3+10*(t-0.5)) < 0.3 ? 1e6 : 0)*(abs(t-0.50037) < 2e-4 ? 1 : 0)"})
   {
-    const std::string log =
-        log_of("Gravity = 0, 0\n"
-               "Wire w: To = 40, 0; Components = string; Mass per length = 1; Tension = 10000;\n"
-               "  Element size = 0.5; Mass damping = 0.5\n"
-               "Support ends: Wire = w; Positions = 0, 40\n"
-               "Load l: Type = distributed; On = w @ 0; Magnitude = 5*sin(3*t)+" +
-                   load + "\nTime: Step = 1e-3; End = 1\n",
-               {});
+    const std::string log = log_of(wire(load), {});
     EXPECT_TRUE(has(log, "Warning: the load on 'w")) << load << log;
+    EXPECT_FALSE(has(log, "Step control = adaptive")) << load << log;
+    EXPECT_TRUE(
+        has(log_of(wire(load), {"Time.Step control=adaptive"}), "which adaptive steps do not see"))
+        << load;
+  }
+}
+
+// The edges of a block that moves pass the places at which a load is looked at: it is no pulse.
+TEST(UnseenFeatures, a_block_that_moves_is_no_pulse)
+{
+  const std::string block = "(abs(s-5-30*t) < 0.3 ? 1000 : 0)";
+  for (const std::string control : {"fixed", "adaptive"})
+  {
+    const std::string log = log_of(
+        wire(block), {"Time.Step=4e-3", "Time.Step control=" + control, "Time.Check steps=yes"});
+    EXPECT_FALSE(has(log, "changes for about")) << log;
   }
 }
 

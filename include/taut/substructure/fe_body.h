@@ -86,9 +86,12 @@ namespace taut
            const dealii::Vector<double> &load = {}, const Options &options = Options());
 
     /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF. With a
-    /// @p sample, see TimeLoad::sample(), runs look for pulses of the load between their steps.
+    /// @p sample, see TimeLoad::sample(), runs look for pulses of the load between their steps;
+    /// with
+    /// @p sample_at_places also for those on a part of the body.
     void add_load(std::function<void(double t, dealii::Vector<double> &P)> add,
-                  std::function<double(double t, std::size_t n_places)> sample = {});
+                  std::function<double(double)> sample = {},
+                  std::function<double(double t, std::size_t n_places)> sample_at_places = {});
 
     /// Adds a constant load, one entry a DoF [N]. Throws UserError for a load of another size, or a
     /// load that is not finite.

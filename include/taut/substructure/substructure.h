@@ -27,9 +27,13 @@ namespace taut
     virtual void add(double t, std::vector<double> &P) const = 0;
 
     /// A number that changes in time as the force does, such as its size or the sum of its sizes at
-    /// about @p n_places places [N]. The search for pulses between the steps evaluates it many
-    /// times; not a number: this load is not searched.
-    virtual double sample(double /*t*/, std::size_t /*n_places*/) const
+    /// a few places [N]. The search for pulses between the steps evaluates it many times; not a
+    /// number: this load is not searched.
+    virtual double sample(double /*t*/) const { return std::numeric_limits<double>::quiet_NaN(); }
+
+    /// The same sum of a load in space at @p n_places places, which shows pulses on a part of the
+    /// body. Not a number: sample() shows all.
+    virtual double sample_at_places(double /*t*/, std::size_t /*n_places*/) const
     {
       return std::numeric_limits<double>::quiet_NaN();
     }
@@ -265,7 +269,7 @@ namespace taut
     {
     }
     void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }
-    double sample(const double t, std::size_t /*n_places*/) const override { return magnitude(t); }
+    double sample(const double t) const override { return magnitude(t); }
 
     /// The fault that makes this no load on @p n_dofs DoFs, as a part of a message; empty: none.
     std::string fault(std::size_t n_dofs) const
