@@ -187,8 +187,8 @@ Time: Step = 1e-3
   EXPECT_FALSE(has(later, "Warning")) << later;
   // Of this many steps every eighth end is kept.
   const std::string long_run =
-      log_of(scene, {"Time.End=10", "Mass m.Initial velocity=0, -0.0999, 0", "Link k.Gap=0.99898",
-                     "Time.Check steps=yes"});
+      log_of(scene, {"Time.End=10", "Network.Mass m.Initial velocity=0, -0.0999, 0",
+                     "Network.Link k.Gap=0.99898", "Time.Check steps=yes"});
   EXPECT_TRUE(has(long_run, warning)) << long_run;
 }
 
