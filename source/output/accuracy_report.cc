@@ -83,10 +83,10 @@ namespace taut
     /// Lengths of adaptive steps are powers of two, up to twice as long as the tolerance asks for.
     constexpr double rounding_of_lengths = .5;
 
-    /// Bounds of differences over the bounds of MotionDifference. Compared with longer steps, an
-    /// error is within its bound below the first. Compared with shorter steps, it is within below
-    /// the second and beyond above the third, even if these are no better.
-    constexpr double agrees = .6, surely_good = .25, surely_bad = 1.25;
+    /// Bounds of differences from shorter steps over the bounds of MotionDifference: an error is
+    /// within its bound below the first and beyond above the second, even if the shorter steps are
+    /// no better.
+    constexpr double surely_good = .25, surely_bad = 1.25;
 
     /// Part of the bounds for the recommended step, and bound of the difference to the shortest
     /// steps plus their own estimated error.
@@ -169,10 +169,10 @@ namespace taut
     return !options.steps.adaptive() && options.step <= ratio_of_steps * run.seeing_step;
   }
 
-  /// Whether a run with steps that are so many times as long is affordable.
-  bool StepAccuracy::affords(const double about) const
+  /// Whether a run with steps that are so many times as long takes less than about half a second.
+  bool StepAccuracy::is_cheap(const double about) const
   {
-    return run.at_any_cost || work <= most_work * about;
+    return work <= most_work * about;
   }
 
   /// Difference from a run to the same end with steps that are about so many times as long;
@@ -234,55 +234,62 @@ namespace taut
     work = n_solutions * work_of_solution(run) +
            static_cast<double>(n_iterations) *
                (work_of_step + static_cast<double>(run.motion.links().n_of_all()));
-    const bool affords_shorter = affords(1. / ratio_of_steps);
-    std::optional<MotionRecord::Differences> coarse;
-    // A looser tolerance says less than a tighter one.
-    if (sees_all() && has_longer_steps(run) && affords(ratio_of_steps) &&
-        !(affords_shorter && run.motion.settings().steps.adaptive()))
-      coarse = compare(ratio_of_steps, stop);
-    const bool coarse_agrees = coarse && coarse->most.over_bounds() <= agrees &&
-                               coarse->most.impulse_at_end <= MotionDifference::impulse_bound;
-    if (coarse && (coarse_agrees || !affords_shorter))
-    {
-      extrapolate(coarse->most);
-      return;
-    }
-    if (!affords_shorter)
-    {
-      if (reason.empty())
-        reason = "runs with other steps take long: set Time/Check steps = yes for them";
-      return;
-    }
-    const std::optional<MotionRecord::Differences> shorter = compare(1. / ratio_of_steps, stop);
-    if (!shorter)
-      return;
-    const double least = shorter->least.over_bounds(), most = shorter->most.over_bounds();
-    if (coarse)
-      order = std::clamp(std::log(coarse->most.over_bounds() / most) / std::log(ratio_of_steps), 1.,
-                         2.);
-    too_long = !(least <= surely_bad);
-    found = too_long ? shorter->least : shorter->most;
-    if (too_long || (coarse && most <= surely_good))
-      return;
-    constexpr double shortest = 1. / (ratio_of_steps * ratio_of_steps);
-    const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
-    if (finest)
-      found = finest->most;
-    // The shorter steps have an error, too, of first order at impacts.
-    const double now = found->over_bounds(),
-                 of_first_order = now / ((finest ? 1. / shortest : ratio_of_steps) - 1.),
-                 more = std::max(finest ? now - least : 0., of_first_order);
-    too_long = !(now + more <= good);
+    if (run.at_any_cost || is_cheap(1. / ratio_of_steps))
+      compare_with_shorter(stop);
+    else if (is_followed_by_longer() && is_cheap(ratio_of_steps))
+      compare_with_longer(stop);
+    else
+      reason = "runs with other steps take long: set Time/Check steps = yes for them";
   }
 
-  /// Estimates the error from longer steps, whose error is at least larger by the ratio.
-  void StepAccuracy::extrapolate(MotionDifference coarse)
+  /// Whether steps that are longer by the ratio say something.
+  bool StepAccuracy::is_followed_by_longer() const
   {
-    for (double *const e : {&coarse.place, &coarse.impulse, &coarse.energy})
-      *e /= ratio_of_steps - 1.;
-    coarse.row_at_end = -1; // impacts of longer steps are off by more than those of the run
-    found = coarse;
-    too_long = !(coarse.over_bounds() <= good);
+    return sees_all() && has_longer_steps(run);
+  }
+
+  void StepAccuracy::compare_with_shorter(const std::function<bool()> &stop)
+  {
+    const auto shorter = compare(1. / ratio_of_steps, stop);
+    if (!shorter)
+      return;
+    // A run of few steps, or adaptive ones, may agree by chance.
+    const bool is_of_many = is_followed_by_longer() && !run.motion.settings().steps.adaptive();
+    const double least = shorter->least.over_bounds(), most = shorter->most.over_bounds();
+    too_long = !(least <= surely_bad);
+    found = too_long ? shorter->least : shorter->most;
+    if (!too_long)
+    {
+      constexpr double shortest = ratio_of_steps * ratio_of_steps;
+      double ratio = ratio_of_steps, in_line = 0.; // with the change from one to the other
+      if (!(is_of_many && most <= surely_good) && is_cheap(1. / shortest))
+        if (const auto finest = compare(1. / shortest, stop))
+        {
+          ratio = shortest;
+          found = finest->most;
+          in_line = 2. * found->over_bounds() - least;
+        }
+      // The shorter steps have an error, too, of first order at impacts.
+      found->scale(ratio / (ratio - 1.));
+      too_long = !(std::max(found->over_bounds(), in_line) <= good);
+    }
+    if (const auto longer = too_long && is_of_many ? compare(ratio_of_steps, stop) : std::nullopt)
+      order = std::clamp(std::log(longer->most.over_bounds() / most) / std::log(ratio_of_steps), 1.,
+                         2.);
+  }
+
+  /// The error is at least larger by the ratio with longer steps.
+  void StepAccuracy::compare_with_longer(const std::function<bool()> &stop)
+  {
+    const auto longer = compare(ratio_of_steps, stop);
+    if (!longer)
+      return;
+    MotionDifference rough = longer->most;
+    rough.scale(1. / (ratio_of_steps - 1.));
+    rough.row_at_end = -1; // impacts of longer steps are off by more than those of the run
+    found = rough;
+    too_long = !(rough.over_bounds() <= good);
+    is_rough = true;
   }
 
   /// Part of the step with which the error falls to its bound.
@@ -339,9 +346,10 @@ namespace taut
     if (!found)
       return reason.empty() ? "Steps: not checked, as the run was ended\n"
                             : "Steps: the error is not known, as " + reason + '\n';
-    std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
-                       percent(found->impulse) + ", of energies " + percent(found->energy) +
-                       " of the largest, from runs with other steps";
+    std::string text =
+        "Steps: error of places " + percent(found->place) + ", of impulses " +
+        percent(found->impulse) + ", of energies " + percent(found->energy) + " of the largest, " +
+        (is_rough ? "about, from a run with longer steps" : "from runs with other steps");
     if (too_long && !run.other_cause.empty())
       return text + ". The cause may be the joints that the log warns of\n";
     text += '\n';

@@ -23,7 +23,7 @@ namespace taut
     Motion &motion;
     long n_steps; ///< of the length of its options
 
-    bool at_any_cost = false;     ///< allows other runs at any cost
+    bool at_any_cost = false;     ///< allows a run with shorter steps at any cost
     std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
 
     /// The longest step that sees all of the scene, if the run does not [s].
@@ -34,12 +34,12 @@ namespace taut
    * Estimates the error of a run by its steps. Use it at the end of a run that is cheap enough to
    * repeat.
    *
-   * First the run is compared with one of 4.24 times the step, which costs a quarter. If both agree
-   * well within the bounds of MotionDifference, the error of the run is at most a third of their
-   * difference. Otherwise the other run has a step that is shorter by this factor, and near the
-   * bounds by its square (L. F. Richardson's extrapolation, 1911, with an order from one to two).
-   * Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step. If shorter steps
-   * cost too much, the longer steps, or a looser tolerance, give a rough error. A run that does not
+   * The run is compared with one whose step is shorter by 4.24, and near the bounds of
+   * MotionDifference, or if it has few steps, by the square of this (L. F. Richardson's
+   * extrapolation, 1911). Beyond a bound, one of 4.24 times the step shows the order of the error,
+   * from one to two. Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step,
+   * and more. If shorter steps cost too much, longer ones, or a looser tolerance, give a rough
+   * error, a third of the difference; they may miss the same impact as the run. A run that does not
    * see all of the scene is compared with shorter steps alone, which have to see it. What a run
    * costs is counted from the run itself: its steps, repetitions and iterations.
    */
@@ -82,11 +82,13 @@ namespace taut
     void load(InputArchive &archive) { own.load(archive); }
 
   private:
-    bool affords(double about) const;
+    bool is_cheap(double about) const;
     bool sees_all() const { return !std::isfinite(run.seeing_step); }
     std::optional<MotionRecord::Differences> compare(double about,
                                                      const std::function<bool()> &stop);
-    void extrapolate(MotionDifference coarse);
+    bool is_followed_by_longer() const;
+    void compare_with_shorter(const std::function<bool()> &stop);
+    void compare_with_longer(const std::function<bool()> &stop);
     double shortened(double over_bounds) const;
     std::vector<Warning> warning_of_end() const;
 
@@ -99,8 +101,9 @@ namespace taut
     MotionRecord own;
     std::optional<MotionDifference> found;
     bool too_long = false;
-    double order = 1.;  ///< of the error in the step
-    std::string reason; ///< why the error is unknown
+    bool is_rough = false; ///< the error, from longer steps
+    double order = 1.;     ///< of the error in the step
+    std::string reason;    ///< why the error is unknown
   };
 
   /// Reports the measures of contacts at the end of a run, and on request the errors of its steps.

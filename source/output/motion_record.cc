@@ -47,6 +47,12 @@ namespace taut
     return worse(worse(place / place_bound, impulse / impulse_bound), energy / energy_bound);
   }
 
+  void MotionDifference::scale(const double factor)
+  {
+    for (double *const difference : {&place, &impulse, &energy})
+      *difference *= factor;
+  }
+
   bool MotionDifference::is_place() const
   {
     return !(place / place_bound < over_bounds());

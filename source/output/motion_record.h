@@ -27,6 +27,9 @@ namespace taut
     /// The largest ratio of the three to its bound; not-a-number if one is.
     double over_bounds() const;
 
+    /// Multiplies the three.
+    void scale(double factor);
+
     std::size_t body = 0; ///< of Structure::all_bodies(), with the largest difference of places
     double time = 0.;     ///< of this difference [s]
     std::size_t row = -1; ///< constraint with the largest difference of impulses; -1: none

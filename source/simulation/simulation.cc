@@ -17,7 +17,7 @@
 #include "output/rest_figures.h"
 #include "output/scene_report.h"
 #include "partition/make_partition.h"
-#include "time/excitations.h"
+#include "time/unseen_feature.h"
 #include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>

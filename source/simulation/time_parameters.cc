@@ -24,11 +24,12 @@ namespace taut
     step_parameters.declare_parameters(prm);
     prm.add_parameter(
         "Check steps", check_steps,
-        "At the end of a run, whether its steps are short enough: it is made again with 4.24 times "
-        "the step, and unless both agree well within 2 % of places and impulses and 5 % of "
-        "energies, with shorter ones. The log has the error, and a warning "
-        "the step that is needed. 'automatic': where the Scheme is 'automatic', too, and these "
-        "runs take less than about half a second",
+        "At the end of a run, whether its steps are short enough: it is made again with a step "
+        "that is 4.24 times shorter, and more where this is in doubt. The log has the error; "
+        "beyond 2 % of places and impulses or 5 % of energies a warning names the step that is "
+        "needed. 'automatic': where the Scheme is 'automatic', too, each of these runs where it "
+        "takes less than about half a second; of a longer one a run with longer steps gives a "
+        "rough error. 'yes' takes about five times as long as the run",
         Selection("automatic|yes|no"));
     prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
                       "Run a scheme although it is known to fail with the links of the scene");

@@ -136,6 +136,8 @@ namespace taut
       for (const Warning &warning : runner.run(list).warnings)
         if (warning.kind == "step")
           return "the motion as a whole is less accurate than these quantities: " + warning.message;
+      if (const int signal = ask()) // it may have ended the check, after the run
+        throw Interrupted(signal, "");
     }
     catch (const Interrupted &e)
     {

@@ -7,6 +7,7 @@
 #include "time/step.h"
 #include "time/step_control.h"
 #include "time/stored_rows.h"
+#include "time/unseen_feature.h"
 #include "time/velocity_projection.h"
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>

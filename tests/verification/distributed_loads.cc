@@ -375,6 +375,22 @@ TEST(DistributedLoads, pulses_inside_of_an_element_are_seen_under_smooth_loads)
     }
 }
 
+// About the smallest numbers, which have no digits to integrate, a load is nothing.
+TEST(DistributedLoads, loads_fade_below_the_smallest_number)
+{
+  constexpr double middle = .50037, width = .0003, largest = 3e5;
+  for (const std::string &kind : kinds)
+  {
+    LoadedWire wire(kind, "5*sin(3*t)*0+3e5*exp(-((s-10)/0.5)^2-((t-0.50037)/0.0003)^2)");
+    for (double exponent = 690.; exponent < 760.; exponent += .5)
+    {
+      const double t = middle - width * std::sqrt(exponent),
+                   right = .5 * std::sqrt(M_PI) * largest * std::exp(-exponent);
+      EXPECT_NEAR(wire.force(t), right, std::max(bound * right, 1e-306)) << exponent;
+    }
+  }
+}
+
 // A shape whose way has no value at a moment at which the load has one.
 TEST(DistributedLoads, ways_without_a_value_leave_the_load_as_it_is)
 {
