@@ -4,9 +4,13 @@
 #include "base/gather_entries.h"
 #include "output/impulse_record.h"
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -18,50 +22,78 @@ namespace taut
     /// second one is kept, or fourth, and so on. Even, so that the last one is kept.
     constexpr std::size_t fewest_ends = 1000, most_ends_of_few = 16000, most_numbers = 1000000;
 
-    /// Constraints between the same bodies that may share an impulse.
+    /// What a rigid unilateral constraint that does not slide acts on.
+    struct Ends
+    {
+      std::vector<std::size_t> dofs; ///< of lumped bodies, by number; empty: others, too
+      std::vector<double> values;    ///< of its linear form at the start
+    };
+
+    /// Constraints between the same bodies that may share an impulse. Two act on opposite sides, as
+    /// floor and ceiling, or are one.
     constexpr std::size_t least_shared = 3;
 
-    /// Of each of these rows the DoFs of lumped bodies that a fixed rigid unilateral constraint
-    /// acts on, by number; empty: another one, or other bodies, too.
-    std::vector<std::vector<std::size_t>> lumped_ends(const Structure &structure,
-                                                      const Constraints &constraints,
-                                                      const std::vector<std::size_t> &rows)
+    std::vector<Ends> lumped_ends(const Structure &structure, const Constraints &constraints,
+                                  const std::vector<std::size_t> &rows)
     {
       double most_dofs = 1.;
       for (std::size_t k = 0; k < structure.size(); ++k)
         if (structure[k].is_lumped())
           most_dofs = std::max<double>(most_dofs, structure[k].n_dofs());
       const auto stride = static_cast<std::size_t>(structure.communicator().max(most_dofs));
+      constexpr double on_elements = std::numeric_limits<double>::infinity();
       MatrixEntries acts_on;
+      const auto add = [&](const std::size_t i, const Term &term, const double part)
+      {
+        const bool is_lumped = structure[term.substructure].is_lumped();
+        for (std::size_t e = 0; e < term.form.index.size(); ++e)
+          acts_on.add(i,
+                      structure.number(term.substructure) * stride +
+                          (is_lumped ? term.form.index[e] : 0),
+                      is_lumped ? part * term.form.value[e] : on_elements);
+      };
       for (std::size_t i = 0; i < rows.size(); ++i)
+      {
         for (const std::vector<Term> *const form : constraints[rows[i]].forms())
           for (const Term &term : *form)
-          {
-            const bool is_lumped = structure[term.substructure].is_lumped();
-            for (const unsigned int dof : term.form.index)
-              acts_on.add(i, structure.number(term.substructure) * stride + (is_lumped ? dof : 0),
-                          is_lumped);
-          }
-      gather(structure.communicator(), acts_on);
-      std::vector<std::vector<std::size_t>> ends(rows.size());
-      std::vector<char> is_shared(rows.size(), 0);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        is_shared[i] = constraints[rows[i]].cone.may_open() &&
-                       constraints[rows[i]].spring.is_rigid() && !constraints.slides(rows[i]);
-      for (std::size_t e = 0; e < acts_on.size(); ++e)
-      {
-        ends[acts_on.row[e]].push_back(acts_on.column[e]);
-        if (acts_on.value[e] == 0.)
-          is_shared[acts_on.row[e]] = 0;
+            add(i, term, 0.); // where it acts at other positions
+        for (const Term &term : constraints[rows[i]].terms)
+          add(i, term, 1.);
       }
-      for (std::size_t i = 0; i < ends.size(); ++i)
+      gather(structure.communicator(), acts_on);
+      std::vector<std::map<std::size_t, double>> forms(rows.size());
+      for (std::size_t e = 0; e < acts_on.size(); ++e)
+        forms[acts_on.row[e]][acts_on.column[e]] += acts_on.value[e];
+      std::vector<Ends> ends(rows.size());
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        std::sort(ends[i].begin(), ends[i].end());
-        ends[i].erase(std::unique(ends[i].begin(), ends[i].end()), ends[i].end());
-        if (!is_shared[i])
-          ends[i].clear();
+        bool may_share = constraints[rows[i]].cone.may_open() &&
+                         constraints[rows[i]].spring.is_rigid() && !constraints.slides(rows[i]);
+        for (const auto &[dof, value] : forms[i])
+          may_share = may_share && std::isfinite(value);
+        for (const auto &[dof, value] : forms[i])
+          if (may_share)
+          {
+            ends[i].dofs.push_back(dof);
+            ends[i].values.push_back(value);
+          }
       }
       return ends;
+    }
+
+    /// Whether linear forms on the same DoFs depend on each other.
+    bool are_dependent(const std::vector<const Ends *> &forms)
+    {
+      constexpr double rounding = 1e-12;
+      const std::size_t n_dofs = forms.front()->dofs.size();
+      if (forms.size() > n_dofs)
+        return true;
+      dealii::LAPACKFullMatrix<double> matrix(forms.size(), n_dofs);
+      for (std::size_t i = 0; i < forms.size(); ++i)
+        for (std::size_t j = 0; j < n_dofs; ++j)
+          matrix(i, j) = forms[i]->values[j];
+      matrix.compute_svd();
+      return !(matrix.singular_value(forms.size() - 1) > rounding * matrix.singular_value(0));
     }
   } // namespace
 
@@ -75,21 +107,30 @@ namespace taut
         rows.push_back(i);
         multiplier.push_back(start.multiplier[i]);
       }
-    const auto ends = lumped_ends(structure, constraints, rows);
-    std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> with_ends;
+    const std::vector<Ends> ends = lumped_ends(structure, constraints, rows);
+    std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < ends.size(); ++i)
-      with_ends[{ends[i], constraints[rows[i]].rotational}].push_back(i);
-    item_of.resize(ends.size());
-    for (std::size_t i = 0; i < ends.size(); ++i)
+      if (!ends[i].dofs.empty())
+        alike[{ends[i].dofs, constraints[rows[i]].rotational}].push_back(i);
+    std::vector<std::size_t> first(ends.size());
+    std::iota(first.begin(), first.end(), 0);
+    for (const auto &[key, same] : alike)
     {
-      const std::vector<std::size_t> &alike = with_ends[{ends[i], constraints[rows[i]].rotational}];
-      const bool is_shared = !ends[i].empty() && alike.size() >= least_shared;
-      if (is_shared && alike.front() < i)
+      std::vector<const Ends *> forms;
+      for (const std::size_t i : same)
+        forms.push_back(&ends[i]);
+      if (same.size() >= least_shared && are_dependent(forms))
+        for (const std::size_t i : same)
+          first[i] = same.front();
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (first[i] < i)
       {
-        item_of[i] = item_of[alike.front()];
+        item_of.push_back(item_of[first[i]]);
         continue;
       }
-      item_of[i] = items.size();
+      item_of.push_back(items.size());
       items.push_back({rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational,
                        constraints[rows[i]].cone.may_open()});
     }

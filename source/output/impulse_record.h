@@ -19,7 +19,8 @@ namespace taut
    * last one.
    *
    * Three or more rigid unilateral constraints on the same DoFs of lumped bodies may share an
-   * impulse in any way, as the legs of a box do. Their sum counts.
+   * impulse in any way if their linear forms depend on each other, as the four legs of a box do.
+   * Their sum counts.
    */
   class ImpulseRecord
   {

@@ -20,7 +20,8 @@ namespace taut
   namespace
   {
     /// Part of the displacements of a group below which its motion is rounding, and of the way that
-    /// its loads would make alone: a force that others balance rounds by this part of itself.
+    /// its loads or its velocity at the start would make alone: a force that others balance rounds
+    /// by this part of itself, and so does a velocity that an impact ends.
     constexpr double rounding_of_places = 1e-9, rounding_of_forces = 1e-15;
 
     /// Recorded places of all ranks, if bodies have more.
@@ -104,6 +105,12 @@ namespace taut
     energies.reserve((n + 1) * groups.n_groups());
     add_energies(start);
     speed.assign(2 * groups.n_groups(), 0.);
+    speed_at_start = speed;
+    for (const Place &place : dofs)
+    {
+      double &fastest = speed_at_start[place.group];
+      fastest = std::max(fastest, std::fabs(start.V[place.body][place.dof]));
+    }
   }
 
   void MotionRecord::add_speeds(const State &state)
@@ -319,8 +326,10 @@ namespace taut
       for (std::size_t q = 2 * g; q < 2 * g + 2; ++q)
       {
         const double largest = all.max(place[q]), fastest = all.max(speed[q]),
-                     least_motion = std::max(rounding_of_places * (all.max(whole[q]) + largest),
-                                             q % 2 == 0 ? forces[g] : 0.);
+                     in_free_flight = all.max(speed_at_start[q]) * interval * n_samples(),
+                     least_motion = std::max({rounding_of_places * (all.max(whole[q]) + largest),
+                                              rounding_of_forces * in_free_flight,
+                                              q % 2 == 0 ? forces[g] : 0.});
         result.place.push_back(largest > least_motion ? largest : 0.);
         result.late.push_back(ratio(MotionDifference::place_bound * largest, fastest));
         // 2 T / v of bodies with speeds up to v is at most their momentum.

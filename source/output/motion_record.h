@@ -138,6 +138,7 @@ namespace taut
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
     std::vector<double> speed; ///< of the groups by kind, largest so far [m/s, rad/s]
+    std::vector<double> speed_at_start;
     ImpulseRecord impulses;
     std::vector<double> places; ///< of all DoFs, sample after sample [m]
     Energies energies;          ///< shares of this rank
