@@ -99,7 +99,7 @@ namespace taut
 
   ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
                                const ConnectedBodies &groups, const State &start)
-      : times(1, start.time)
+      : n_groups(groups.n_groups()), times(1, start.time)
   {
     for (const std::size_t i : constraints.common_rows())
       if (!constraints[i].is_cut())
@@ -160,6 +160,14 @@ namespace taut
     impulses.insert(impulses.end(), impulse.begin(), impulse.end());
     if (times.size() > most_ends && n_steps % stride == 0)
       keep_every_second_end();
+  }
+
+  std::vector<double> ImpulseRecord::sizes() const
+  {
+    std::vector<double> result(2 * n_groups, 0.);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      result[items[i].group] += std::fabs(impulse[i]);
+    return result;
   }
 
   void ImpulseRecord::keep_every_second_end()

@@ -32,6 +32,9 @@ namespace taut
     /// Records an accepted step.
     void record(const State &state, const StepReport &report);
 
+    /// Sums of the sizes of the impulses so far, by group and kind [N s, N m s].
+    std::vector<double> sizes() const;
+
     /// Relative differences, the largest and that of unilateral constraints at the end of the
     /// comparison, where nothing may be early or late, and their constraints; -1: nothing differs.
     struct Difference
@@ -77,6 +80,7 @@ namespace taut
       std::size_t group; ///< 2 g, or 2 g + 1 of rotational ones
       bool may_open;
     };
+    const std::size_t n_groups;
     std::vector<std::size_t> rows; ///< all but cuts
     std::vector<Item> items;
     std::vector<std::size_t> item_of; ///< of each of the rows

@@ -20,8 +20,8 @@ namespace taut
   namespace
   {
     /// Part of the displacements of a group below which its motion is rounding, and of the way that
-    /// its loads or its velocity at the start would make alone: a force that others balance rounds
-    /// by this part of itself, and so does a velocity that an impact ends.
+    /// its loads, its impulses or its velocity at the start would make alone: a force that others
+    /// balance rounds by this part of itself, and so does a velocity that an impact ends.
     constexpr double rounding_of_places = 1e-9, rounding_of_forces = 1e-15;
 
     /// Recorded places of all ranks, if bodies have more.
@@ -274,7 +274,8 @@ namespace taut
     return result;
   }
 
-  /// What rounding of balanced loads moves each group by in the time of the record [m].
+  /// What rounding of balanced loads, and of the forces of constraints, moves each group by in the
+  /// time of the record [m].
   std::vector<double> MotionRecord::rounding() const
   {
     const std::size_t n_groups = groups.n_groups();
@@ -291,9 +292,13 @@ namespace taut
     structure.communicator().sum(of_groups);
     std::vector<double> result;
     const double time = interval * static_cast<double>(n_samples());
+    const std::vector<double> sizes = impulses.sizes();
     for (std::size_t g = 0; g < n_groups; ++g)
-      result.push_back(rounding_of_forces * .5 * time * time *
-                       (of_groups[2 * g] > 0. ? of_groups[2 * g + 1] / of_groups[2 * g] : 0.));
+      result.push_back(of_groups[2 * g] > 0.
+                           ? rounding_of_forces * time *
+                                 (.5 * time * of_groups[2 * g + 1] + sizes[2 * g]) /
+                                 of_groups[2 * g]
+                           : 0.);
     return result;
   }
 

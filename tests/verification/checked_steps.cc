@@ -69,6 +69,19 @@ TEST(CheckedSteps, a_mass_that_is_pressed_to_a_stop_has_no_error)
   EXPECT_FALSE(has(log, "Warning")) << log;
 }
 
+// So does a load that grows from nothing.
+TEST(CheckedSteps, a_load_that_presses_a_mass_to_a_stop_moves_nothing)
+{
+  const std::string log =
+      log_of("Gravity = 0, 0; Start = given\n"
+             "Mass a: Motions = y; Mass = 2.1\nMass b: Position = 0, 1; Motions = y; Mass = 1.23\n"
+             "Spring s: To = a; Stiffness = 812\nSpring q: From = a; To = b; Stiffness = 357\n"
+             "Link stop: Type = stop; From = ground; To = a; Direction = 0, 1; Stiffness = rigid\n"
+             "Load l: On = a; Magnitude = -18*t\nTime: Step = 7e-3; End = 0.21\n");
+  EXPECT_EQ(reported(log), 0.) << log;
+  EXPECT_FALSE(has(log, "Warning")) << log;
+}
+
 TEST(CheckedSteps, a_mass_at_rest_has_no_error)
 {
   for (const std::string mass : {"3", "1e-3", "1e5"})
