@@ -204,10 +204,9 @@ namespace taut
           return std::nullopt;
         }
       }
-      // Impacts of shorter steps are off by the ratio, and are at the ends of these steps: if they
-      // are off as much the other way, two of these ratios are missing. Those of longer steps are
-      // off by more than those of this run.
-      return own.differences(other, about < 1. ? 1. - 2. * about : about - 1.);
+      // Impacts of the better run are off by the ratio of both steps, and are at the ends of its
+      // steps: if they are off as much the other way, two of these ratios are missing.
+      return own.differences(other, 1. - 2. * std::min(about, 1. / about));
     }
     catch (const UserError &e)
     {
