@@ -10,15 +10,15 @@ namespace hunt
 {
   namespace
   {
-    /// The warnings of a log that name something and speak of the step.
+    /// The warnings of a log that name something and speak of the step, or of a contact at the end.
     std::string warnings(const std::string &log)
     {
       std::istringstream lines(log);
       std::string result;
       // What a force means says nothing of the accuracy of a motion.
       for (std::string line; std::getline(lines, line);)
-        if (has(line, "Warning: ") && (has(line, "step") || has(line, "Step")) && has(line, "'") &&
-            !has(line, "is an impulse over a step"))
+        if (has(line, "Warning: ") && has(line, "'") && !has(line, "is an impulse over a step") &&
+            (has(line, "step") || has(line, "Step") || has(line, "until the end of the run")))
           result += line + "\n";
       return result;
     }
