@@ -6,6 +6,7 @@
 #include "verification/run.h"
 
 #include <boost/numeric/odeint.hpp>
+#include <utility>
 
 namespace hunt
 {
@@ -95,6 +96,17 @@ namespace hunt
       return a > b || a != a ? a : b;
     }
   } // namespace
+
+  void join_repeated(const LinearModel &model, History &history)
+  {
+    const std::vector<LinearModel::Row> &rows = model.rows;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (rows[i].unilateral && rows[j].unilateral && rows[i].rigid() && rows[j].rigid() &&
+            rows[i].gap == rows[j].gap && rows[i].terms == rows[j].terms)
+          for (Sample &sample : history)
+            sample.impulse[j] += std::exchange(sample.impulse[i], 0.);
+  }
 
   Difference difference(const History &reference, const History &run)
   {

@@ -22,6 +22,10 @@ namespace hunt
   /// The times of the run are the first ones of the reference.
   Difference difference(const History &reference, const History &run);
 
+  /// Rigid unilateral constraints that repeat another one share its impulse in any way: gives it to
+  /// the first of them.
+  void join_repeated(const LinearModel &model, History &history);
+
   /// Two references of one scene, one disturbed: what they do not agree about is chaos.
   struct Reference
   {

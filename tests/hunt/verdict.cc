@@ -95,13 +95,15 @@ namespace hunt
     std::vector<double> times;
     for (const Sample &sample : history)
       times.push_back(sample.time);
-    const Reference reference = make_reference(scene, run.recorder.model.get(), times, run.log);
+    Reference reference = make_reference(scene, run.recorder.model.get(), times, run.log);
     if (!reference.has_sums)
     {
       result.verdict = Verdict::not_decidable;
       result.what = reference.missing;
       return result;
     }
+    join_repeated(*run.recorder.model, reference.history);
+    join_repeated(*run.recorder.model, run.recorder.history);
     result.difference = difference(reference.history, history);
     if (scene.is_driven)
       result.difference.energy = 0.;
