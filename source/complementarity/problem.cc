@@ -59,9 +59,13 @@ namespace taut
         problem.shared->sum(sums);
     }
 
+    /// 0 where the numerator may be what numbers without all of their digits leave: a residual is a
+    /// sum of terms, which have them from the smallest normal number on.
     double relative(double numerator, double denominator)
     {
-      if (numerator == 0.)
+      constexpr double least =
+          std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+      if (numerator <= least)
         return 0.;
       return denominator == 0. ? std::numeric_limits<double>::infinity() : numerator / denominator;
     }

@@ -74,7 +74,11 @@ namespace taut
 
     /// Ratio of the steps of another run, longer or shorter: the third power of the golden ratio,
     /// so that impacts have different places within a step in both.
-    constexpr double ratio_of_steps = 4.2360679774997896;
+    constexpr double golden_ratio = 1.618033988749895,
+                     ratio_of_steps = golden_ratio * golden_ratio * golden_ratio;
+
+    /// Shorter steps are not made beyond this ratio: the search of unseen features ends there.
+    constexpr double most_ratio = 1 << 14;
 
     /// Power of the step ratio in the tolerance of adaptive steps: local errors have order three,
     /// errors of a run order two.
@@ -143,6 +147,16 @@ namespace taut
       return run.n_steps >= least_steps;
     }
 
+    /// Ratio of the step to a shorter one that sees all of the scene.
+    double ratio_that_sees(const RunInSteps &run)
+    {
+      const double wanted = std::min(run.motion.settings().step / run.seeing_step, most_ratio);
+      double ratio = ratio_of_steps;
+      while (ratio < wanted)
+        ratio *= golden_ratio;
+      return ratio;
+    }
+
     std::string percent(const double part)
     {
       return to_text(std::setprecision(2), 100. * part, " %");
@@ -150,7 +164,8 @@ namespace taut
   } // namespace
 
   StepAccuracy::StepAccuracy(RunInSteps from)
-      : run(std::move(from)), groups(run.motion.bodies(), run.motion.links()), work(work_of(run)),
+      : run(std::move(from)), first_ratio(ratio_that_sees(run)),
+        groups(run.motion.bodies(), run.motion.links()), work(work_of(run)),
         n_samples(samples_of(run)), interval(interval_of(run)),
         own(run.motion.bodies(), run.motion.links(), groups, run.motion.reference(),
             run.motion.start().state, interval, n_samples)
@@ -166,7 +181,10 @@ namespace taut
   bool StepAccuracy::sees_more(const RunInSteps &run)
   {
     const StepperOptions &options = run.motion.settings();
-    return !options.steps.adaptive() && options.step <= ratio_of_steps * run.seeing_step;
+    if (options.steps.adaptive() || options.step > most_ratio * run.seeing_step)
+      return false;
+    const double ratio = ratio_that_sees(run);
+    return ratio == ratio_of_steps || work_of(run) * ratio <= most_work;
   }
 
   /// Whether a run with steps that are so many times as long takes less than about half a second.
@@ -234,8 +252,10 @@ namespace taut
     work = n_solutions * work_of_solution(run) +
            static_cast<double>(n_iterations) *
                (work_of_step + static_cast<double>(run.motion.links().n_of_all()));
-    if (run.at_any_cost || is_cheap(1. / ratio_of_steps))
+    if ((run.at_any_cost && first_ratio == ratio_of_steps) || is_cheap(1. / first_ratio))
       compare_with_shorter(stop);
+    else if (first_ratio > ratio_of_steps)
+      reason = "something lies between them";
     else if (is_followed_by_longer() && is_cheap(ratio_of_steps))
       compare_with_longer(stop);
     else
@@ -250,7 +270,7 @@ namespace taut
 
   void StepAccuracy::compare_with_shorter(const std::function<bool()> &stop)
   {
-    const auto shorter = compare(1. / ratio_of_steps, stop);
+    const auto shorter = compare(1. / first_ratio, stop);
     if (!shorter)
       return;
     // A run of few steps, or adaptive ones, may agree by chance.
@@ -260,8 +280,8 @@ namespace taut
     found = too_long ? shorter->least : shorter->most;
     if (!too_long)
     {
-      constexpr double shortest = ratio_of_steps * ratio_of_steps;
-      double ratio = ratio_of_steps, in_line = 0.; // with the change from one to the other
+      const double shortest = first_ratio * ratio_of_steps;
+      double ratio = first_ratio, in_line = 0.; // with the change from one to the other
       if (!(is_of_many && most <= surely_good) && is_cheap(1. / shortest))
         if (const auto finest = compare(1. / shortest, stop))
         {
@@ -337,7 +357,8 @@ namespace taut
           << run.motion.settings().steps.tolerance *
                  std::pow(rounding_of_lengths * part, power_of_tolerance);
     else
-      out << ". Take a step of about " << run.motion.settings().step * part << " s";
+      out << ". Take a step of about "
+          << std::min(run.motion.settings().step * part, run.seeing_step) << " s";
     return {{"step", out.str(), found->over_bounds(), 1., "1", found->time}};
   }
 

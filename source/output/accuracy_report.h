@@ -40,8 +40,9 @@ namespace taut
    * from one to two. Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step,
    * and more. If shorter steps cost too much, longer ones, or a looser tolerance, give a rough
    * error, a third of the difference; they may miss the same impact as the run. A run that does not
-   * see all of the scene is compared with shorter steps alone, which have to see it. What a run
-   * costs is counted from the run itself: its steps, repetitions and iterations.
+   * see all of the scene is compared with shorter steps alone, which have to see it: where this is
+   * cheap, with steps that are shorter by a higher power of the golden ratio. What a run costs is
+   * counted from the run itself: its steps, repetitions and iterations.
    */
   class StepAccuracy
   {
@@ -51,7 +52,7 @@ namespace taut
     /// Whether there is another run that takes less than about half a second.
     static bool is_affordable(const RunInSteps &run);
 
-    /// Whether other steps see what the run does not.
+    /// Whether shorter steps that are affordable see what the run does not.
     static bool sees_more(const RunInSteps &run);
 
     /// Whether steps that see all of the scene gave the same motion.
@@ -93,6 +94,7 @@ namespace taut
     std::vector<Warning> warning_of_end() const;
 
     const RunInSteps run;
+    const double first_ratio; ///< ratio of the step to that of the first shorter run
     const ConnectedBodies groups;
     double work;                        ///< of the run: DoFs times solves; estimated, then counted
     long n_steps = 0, n_iterations = 0; ///< steps made, and iterations of the contact solver

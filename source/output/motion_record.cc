@@ -103,7 +103,7 @@ namespace taut
     }
     places.reserve(n * dofs.size());
     energies.reserve((n + 1) * groups.n_groups());
-    add_energies(start);
+    add_energies(start, 1., true);
     speed.assign(2 * groups.n_groups(), 0.);
     speed_at_start = speed;
     for (const Place &place : dofs)
@@ -143,31 +143,63 @@ namespace taut
     }
   }
 
-  /// Kinetic energy; strain energy minus work of the initial loads, plus link springs.
-  void MotionRecord::add_energies(const State &state)
+  /// Of each group of this rank, at the end of the last step or at its start: kinetic energy;
+  /// strain energy minus work of the initial loads, plus link springs.
+  void MotionRecord::find_energies(const State &state, const bool at_end, Energies &of_groups)
   {
-    energies.resize(energies.size() + groups.n_groups(), {0., 0.});
-    const auto result = energies.end() - static_cast<std::ptrdiff_t>(groups.n_groups());
+    of_groups.assign(groups.n_groups(), {0., 0.});
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      std::array<double, 2> &energy = result[groups.of_body(k)];
+      const std::vector<double> &V = at_end ? state.V[k] : state.V_old[k], &U = state.U[k],
+                                &dU = state.dU[k];
+      std::array<double, 2> &energy = of_groups[groups.of_body(k)];
       work.assign(body.n_dofs(), 0.);
-      body.mass().vmult_add(.5, state.V[k].data(), work.data());
-      energy[0] += dot_in_lanes(state.V[k], work);
-      energy[1] += dot_in_lanes(state.U[k], start_load[k]);
-      if (body.is_linear())
-        energy[1] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
-      else
+      body.mass().vmult_add(.5, V.data(), work.data());
+      energy[0] += dot_in_lanes(V, work);
+      energy[1] += dot_in_lanes(U, start_load[k]);
+      if (!at_end)
+        energy[1] -= dot_in_lanes(dU, start_load[k]);
+      if (!body.is_linear())
       {
         copy_displacement(reference, state, k, work);
-        energy[1] += body.strain_energy(work) - dot(state.U[k], reference.force[k]);
+        energy[1] -= dot(U, reference.force[k]);
+        for (std::size_t i = 0; i < work.size() && !at_end; ++i)
+          work[i] -= dU[i];
+        energy[1] += body.strain_energy(work) + (at_end ? 0. : dot(dU, reference.force[k]));
+        continue;
       }
+      energy[1] += .5 * dot_in_lanes(U, state.KU[k]);
+      if (at_end)
+        continue;
+      // 1/2 (U - dU) K (U - dU)
+      work.assign(body.n_dofs(), 0.);
+      body.stiffness().vmult_add(.5, dU.data(), work.data());
+      energy[1] += dot_in_lanes(dU, work) - dot_in_lanes(dU, state.KU[k]);
     }
     if (structure.communicator().is_root())
       for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!constraints[i].spring.is_rigid())
-          result[groups.of_constraint(i)][1] += constraints[i].spring.energy(state.springs[i].u);
+        {
+          const RowStates::Spring &spring = state.springs[i];
+          of_groups[groups.of_constraint(i)][1] +=
+              constraints[i].spring.energy(at_end ? spring.u : spring.u - spring.du);
+        }
+  }
+
+  /// Energies at a part of the last step, of which they are the first or not.
+  void MotionRecord::add_energies(const State &state, const double part, const bool is_first)
+  {
+    if (is_first)
+    {
+      find_energies(state, true, now);
+      before = now;
+      if (part < 1.)
+        find_energies(state, false, before);
+    }
+    for (std::size_t g = 0; g < groups.n_groups(); ++g)
+      energies.push_back({before[g][0] + part * (now[g][0] - before[g][0]),
+                          before[g][1] + part * (now[g][1] - before[g][1])});
   }
 
   void MotionRecord::record(const State &state, const StepReport &report)
@@ -181,11 +213,7 @@ namespace taut
       const double until_end = state.time - time_of(n_recorded),
                    part = until_end > early ? 1. - until_end / state.last_step : 1.;
       add_places(state, part);
-      if (is_first)
-        add_energies(state);
-      else
-        for (std::size_t g = 0; g < groups.n_groups(); ++g)
-          energies.push_back(energies[energies.size() - groups.n_groups()]);
+      add_energies(state, part, is_first);
     }
   }
 

@@ -62,7 +62,8 @@ namespace taut
                  const ConnectedBodies &groups, const Reference &reference, const State &start,
                  double interval, std::size_t n);
 
-    /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
+    /// Records an accepted step. Places inside it are those of the cubic with its end velocities,
+    /// energies between those at its ends.
     void record(const State &state, const StepReport &report);
 
     std::size_t n_samples() const { return n_recorded; }
@@ -96,7 +97,8 @@ namespace taut
     PlacesOfBodies places_of_bodies() const;
     void add_speeds(const State &state);
     void add_places(const State &state, double part);
-    void add_energies(const State &state);
+    void add_energies(const State &state, double part, bool is_first);
+    void find_energies(const State &state, bool at_end, Energies &of_groups);
     double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
     Sizes sizes() const;
     Energies energies_of_all() const;
@@ -142,6 +144,7 @@ namespace taut
     ImpulseRecord impulses;
     std::vector<double> places; ///< of all DoFs, sample after sample [m]
     Energies energies;          ///< shares of this rank
+    Energies before, now;       ///< at the start and the end of the last step
     std::vector<double> work;
   };
 } // namespace taut

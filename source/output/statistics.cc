@@ -58,7 +58,8 @@ namespace taut
       LinkQuantities &link = links[n++];
       const double force = step.state.multiplier[i];
       (force == 0. ? link.open_time : link.closed_time) += dt;
-      link.impulse += force * dt;
+      link.impulse += (step.report.is_mean(i) ? force : .5 * (link.last_force + force)) * dt;
+      link.last_force = force;
       if (link.is_dropper && dt == 0.)
         link.dropper.start(force);
       else if (link.is_dropper)
@@ -163,7 +164,7 @@ namespace taut
     }
     for (LinkQuantities &link : links)
       archive &link.open_time &link.closed_time &link.largest_force &link.impulse &link
-          .largest_impulse &link.dropper;
+          .largest_impulse &link.last_force &link.dropper;
     for (ProbeQuantities &probe : probes)
       archive &probe.largest &probe.smallest &probe.last;
     for (SpannedWire &wire : spanned)

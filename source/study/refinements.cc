@@ -45,6 +45,18 @@ namespace taut
       refinement.groups.push_back(
           {n > 1 ? "mesh " + std::to_string(n) : "mesh", kind, value, {path}});
     }
+    /// Whether contacts of the scene have dampers, which take steps of their own length.
+    bool has_damped_contacts(const std::map<std::string, std::string> &scene)
+    {
+      return std::any_of(scene.begin(), scene.end(),
+                         [](const auto &entry)
+                         {
+                           const std::string &path = entry.first;
+                           return ((path.rfind("Network/Link ", 0) == 0 && ends(path, "/Damping")) ||
+                                   ends(path, "/Contact damping")) &&
+                                  std::stod(entry.second) > 0.;
+                         });
+    }
   } // namespace
 
   std::string Refinement::Group::halved(const int n) const
@@ -64,9 +76,14 @@ namespace taut
 
   std::vector<Refinement> find_refinements(const std::map<std::string, std::string> &scene)
   {
-    const Refinement step{
-        {{"step", Refinement::Kind::size, std::stod(scene.at("Time/Step")), {"Time/Step"}}},
-        most_coarser};
+    Refinement step{{}, most_coarser};
+    const auto add_step = [&](const std::string &name, const std::string &entry)
+    {
+      step.groups.push_back({name, Refinement::Kind::size, std::stod(scene.at(entry)), {entry}});
+    };
+    add_step("step", "Time/Step");
+    if (has_damped_contacts(scene))
+      add_step("step in damped contacts", "Time/Step in damped contacts");
     Refinement mesh{{}, most_coarser};
     for (const auto &[path, text] : scene)
       if (ends(path, "/Element size"))

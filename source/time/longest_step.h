@@ -19,7 +19,7 @@ namespace taut
     double contact_time = std::numeric_limits<double>::infinity();
     double damping_ratio = 0.;     ///< damping over the critical one, with this stiffness [1]
     const ForceLaw *law = nullptr; ///< of the spring; null: it is linear
-    double factor = 1.;            ///< steps are so many times as long, for comparisons
+    double factor = 1.;            ///< steps are so many times as long
 
     /// At the largest stiffness of the spring [s].
     double shortest() const { return at_stiffness(1.); }

@@ -252,6 +252,8 @@ namespace taut
     {
       constraints.set_conserving(resolution().conserving());
       longest_steps = resolution().longest_steps(constraints);
+      for (LongestStep &longest : longest_steps)
+        longest.factor = options.steps.in_damped_contacts;
     }
     resolved.reset();
     begin(n_steps);
@@ -576,8 +578,13 @@ namespace taut
       return *unseen;
     if (is_adaptive)
       unseen->local = std::make_shared<const UnseenFeature>(local);
-    else if (local.width < unseen->width)
-      *unseen = local;
+    else
+    {
+      const double seeing = std::min(local.longest_step, unseen->longest_step);
+      if (local.width < unseen->width)
+        *unseen = local;
+      unseen->longest_step = seeing;
+    }
     return *unseen;
   }
 

@@ -360,8 +360,10 @@ namespace taut
               : excitation.at_places
                   ? look_in_space(excitation, excitation, loads, start, step, n_steps, n_samples)
                   : look_for(excitation, loads, start, step, n_steps, n_samples);
+          const double seeing = std::min(own.longest_step, narrowest.longest_step);
           if (own.width < narrowest.width)
             narrowest = own;
+          narrowest.longest_step = seeing;
         }
         catch (const UserError &)
         {
@@ -375,8 +377,7 @@ namespace taut
     narrowest.width = least;
     narrowest.time = processes.max(is_own ? narrowest.time : -1.);
     narrowest.is_local = processes.any(is_own && narrowest.is_local);
-    narrowest.longest_step =
-        -processes.max(is_own ? -narrowest.longest_step : -std::numeric_limits<double>::infinity());
+    narrowest.longest_step = -processes.max(-narrowest.longest_step);
     for (std::string *const text : {&narrowest.name, &narrowest.origin})
     {
       const std::vector<std::string> of_ranks = processes.gather(is_own ? *text : "");

@@ -20,7 +20,7 @@ namespace taut
     /// Of a block of the same height and area there; infinite: there is none [s].
     double width = std::numeric_limits<double>::infinity();
 
-    /// The longest step that sees it, a part of the step by a power of two [s].
+    /// The longest step that sees it and all others, a part of the step by a power of two [s].
     double longest_step = std::numeric_limits<double>::infinity();
 
     /// Whether few places of a load in space, at which adaptive steps look, do not show it.

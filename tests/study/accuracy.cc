@@ -15,6 +15,7 @@ namespace
   using studies::Texts;
   using verification::error_of;
   using verification::has;
+  using verification::number;
 
   const std::string with_end = "Quantity end: Of = place; Quantity = last; Scale = 1\n";
 
@@ -116,6 +117,33 @@ TEST_F(AccuracyTest, a_run_takes_what_was_stored)
                    {"another scene", "Mass is '3' here"});
 }
 
+// A mass that hits a stop with a damper: the steps of its contact do not hang on Time/Step, and are
+// refined with it. Exact: it leaves when k x + c v = 0, at e = exp(-zeta w t_c) of its speed.
+TEST_F(AccuracyTest, steps_of_a_contact_with_a_damper_are_refined)
+{
+  constexpr double m = .836, k = 1990., c = 36.7, v = 5.21, gap = .964, end = 1.4846946;
+  write("Gravity = 0, 0; Start = given\n"
+        "Mass m: Motions = y; Mass = " + number(m) + "; Initial velocity = 0, -" + number(v) +
+        ", 0\n"
+        "Link floor: Type = stop; From = ground; To = m; Direction = 0, 1; Gap = " + number(gap) +
+        "; Stiffness = " + number(k) + "; Damping = " + number(c) +
+        "\nProbe place: Point = m; Direction = 0, 1\n"
+        "Quantity largest: Of = place; Quantity = largest\n"
+        "Time: Step = 7.4e-3; End = " + number(end));
+  const double w = std::sqrt(k / m), zeta = .5 * c / std::sqrt(k * m),
+               damped = std::sqrt(1. - zeta * zeta),
+               t_c = (M_PI - std::atan2(2. * zeta * damped, 1. - 2. * zeta * zeta)) / (w * damped),
+               out = v * std::exp(-zeta * w * t_c),
+               exact = -gap - c * out / k + out * (end - gap / v - t_c);
+  for (const double accuracy : {.05, .002})
+  {
+    search(accuracy, {"Time/Scheme=automatic"});
+    const double error = std::fabs(best.quantities[0] / exact - 1.);
+    EXPECT_LE(error, best.bound + best.reference_error) << log.str();
+    EXPECT_LE(error, accuracy) << log.str();
+  }
+}
+
 // The first swing is right where the phase is lost after twenty of them: the check of steps of the
 // run says 40 %, and the search must not say less of the whole.
 TEST_F(AccuracyTest, agrees_with_the_check_of_steps_of_its_run)
@@ -206,6 +234,12 @@ TEST(Dials, halve_sizes_double_counts_and_add_refinements)
   EXPECT_EQ(refinements[1].values(3), (Texts{"96", "3", "0.25"}));
   EXPECT_EQ(refinements[1].groups[2].entries.size(), 2u);
   EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"}}).size(), 1u);
+  for (const std::string damping : {"0", "5"})
+    EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"},
+                                      {"Time/Step in damped contacts", "1"},
+                                      {"Network/Link s/Damping", damping}})[0]
+                  .values(4),
+              damping == "0" ? Texts{"0.5"} : (Texts{"0.5", "0.5"}));
   EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"}, {"Body c/Elements", "50"}})[1].n_coarser,
             1);
 }

@@ -104,7 +104,7 @@ namespace taut
       std::string name;
       bool unilateral = false, rotates = false;
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
-      double largest_impulse = 0.;
+      double largest_impulse = 0., last_force = 0.;
       bool is_dropper = false;
       LinkForce dropper = {};
     };

@@ -22,6 +22,9 @@ namespace taut
     unsigned int n_halvings = 10, n_doublings = 4; ///< bounds of the length, from Step
     double largest = 0.;                           ///< longest step; 0: from the doublings [s]
 
+    /// Steps in contacts with dampers, over those that keep the rebound within a percent [1].
+    double in_damped_contacts = 1.;
+
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
 
