@@ -39,9 +39,18 @@ namespace taut
       accuracy->load(archive);
   }
 
+  std::vector<Warning> AccuracyReport::warnings_of_contacts() const
+  {
+    std::vector<Warning> result;
+    for (const Warning &warning : measures.warnings())
+      if (!(warning.kind == "contact_momentum" && accuracy && accuracy->is_resolved()))
+        result.push_back(warning);
+    return result;
+  }
+
   std::vector<Warning> AccuracyReport::warnings() const
   {
-    std::vector<Warning> result = measures.warnings();
+    std::vector<Warning> result = warnings_of_contacts();
     if (!is_confirmed())
       result.insert(result.end(), of_steps.begin(), of_steps.end());
     for (const Warning &warning : accuracy ? accuracy->warnings() : std::vector<Warning>())
@@ -54,6 +63,8 @@ namespace taut
     if (failed)
       return;
     log << measures.report();
+    for (const Warning &warning : warnings_of_contacts())
+      log << "  Warning: " << warning.message << '\n';
     if (accuracy)
       log << accuracy->report();
     else if (!reason.empty())
@@ -221,6 +232,12 @@ namespace taut
           reason = "the check was ended";
           return std::nullopt;
         }
+      }
+      if (about < 1.)
+      {
+        const ContactMeasures::Summary summary = motion.measures().summary();
+        resolves_contacts = summary.relative_energy <= ContactMeasures::suspicious_energy &&
+                            summary.relative_momentum <= ContactMeasures::suspicious_momentum;
       }
       // Impacts of the better run are off by the ratio of both steps, and are at the ends of its
       // steps: if they are off as much the other way, two of these ratios are missing.

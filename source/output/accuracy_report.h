@@ -26,7 +26,7 @@ namespace taut
     bool at_any_cost = false;     ///< allows a run with shorter steps at any cost
     std::string other_cause = ""; ///< of errors, that was warned of before; empty: none
 
-    /// The longest step that sees all of the scene, if the run does not [s].
+    /// The longest step that sees all of the scene, if the run does not; 0: not known [s].
     double seeing_step = std::numeric_limits<double>::infinity();
   };
 
@@ -57,6 +57,9 @@ namespace taut
 
     /// Whether steps that see all of the scene gave the same motion.
     bool is_confirmed() const { return found && !sees_all() && !too_long; }
+
+    /// Whether shorter steps that resolve all contacts gave the same motion.
+    bool is_resolved() const { return found && !too_long && resolves_contacts; }
 
     /// Records an accepted step of the run itself.
     void record(const State &state, const StepReport &report, const Residuals &residuals)
@@ -103,9 +106,10 @@ namespace taut
     MotionRecord own;
     std::optional<MotionDifference> found;
     bool too_long = false;
-    bool is_rough = false; ///< the error, from longer steps
-    double order = 1.;     ///< of the error in the step
-    std::string reason;    ///< why the error is unknown
+    bool is_rough = false;          ///< the error, from longer steps
+    bool resolves_contacts = false; ///< a run with shorter steps, the shortest so far
+    double order = 1.;              ///< of the error in the step
+    std::string reason;             ///< why the error is unknown
   };
 
   /// Reports the measures of contacts at the end of a run, and on request the errors of its steps.
@@ -129,7 +133,8 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// Warnings about contacts, then about steps.
+    /// Warnings about contacts, then about steps. That impulses may be off is none if steps that
+    /// resolve the contacts give the same motion.
     std::vector<Warning> warnings() const;
 
     /// A line for each measure, with its warnings; nothing if the run failed.
@@ -137,6 +142,7 @@ namespace taut
 
   private:
     bool is_confirmed() const { return accuracy && accuracy->is_confirmed(); }
+    std::vector<Warning> warnings_of_contacts() const;
 
     const ContactMeasures &measures;
     const std::unique_ptr<StepAccuracy> accuracy;

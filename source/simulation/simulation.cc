@@ -196,7 +196,8 @@ namespace taut
     std::unique_ptr<StepAccuracy> steps;
     RunInSteps run = {*motion, n_steps(), parameters.check_steps == "yes", warning_of_joints(model),
                       unseen.empty() ? std::numeric_limits<double>::infinity()
-                                     : unseen.front().limit};
+                      : motion->unseen_feature().is_all_seen ? unseen.front().limit
+                                                             : 0.};
     if (!unseen.empty() && !StepAccuracy::sees_more(run))
       reason = "something lies between them";
     else if (parameters.check_steps == "automatic" && parameters.scheme != "automatic")

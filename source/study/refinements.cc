@@ -11,6 +11,10 @@ namespace taut
   {
     constexpr int most_coarser = 3;
 
+    /// Steps of a contact with a damper are coarser by this power of two at most: twice as long
+    /// there are eight of them and more, and changes with the step follow its powers.
+    constexpr int most_coarser_in_contacts = 1;
+
     bool ends(const std::string &path, const std::string &tail)
     {
       return path.size() >= tail.size() &&
@@ -48,14 +52,15 @@ namespace taut
     /// Whether contacts of the scene have dampers, which take steps of their own length.
     bool has_damped_contacts(const std::map<std::string, std::string> &scene)
     {
-      return std::any_of(scene.begin(), scene.end(),
-                         [](const auto &entry)
-                         {
-                           const std::string &path = entry.first;
-                           return ((path.rfind("Network/Link ", 0) == 0 && ends(path, "/Damping")) ||
-                                   ends(path, "/Contact damping")) &&
-                                  std::stod(entry.second) > 0.;
-                         });
+      return std::any_of(
+          scene.begin(), scene.end(),
+          [](const auto &entry)
+          {
+            const std::string &path = entry.first;
+            return ((path.rfind("Network/Link ", 0) == 0 && ends(path, "/Damping")) ||
+                    ends(path, "/Contact damping")) &&
+                   std::stod(entry.second) > 0.;
+          });
     }
   } // namespace
 
@@ -77,13 +82,15 @@ namespace taut
   std::vector<Refinement> find_refinements(const std::map<std::string, std::string> &scene)
   {
     Refinement step{{}, most_coarser};
-    const auto add_step = [&](const std::string &name, const std::string &entry)
+    const auto add_step = [&](const std::string &name, const std::string &entry, const int finer)
     {
-      step.groups.push_back({name, Refinement::Kind::size, std::stod(scene.at(entry)), {entry}});
+      const double size = std::ldexp(std::stod(scene.at(entry)), -finer);
+      step.groups.push_back({name, Refinement::Kind::size, size, {entry}});
     };
-    add_step("step", "Time/Step");
+    add_step("step", "Time/Step", 0);
     if (has_damped_contacts(scene))
-      add_step("step in damped contacts", "Time/Step in damped contacts");
+      add_step("step in damped contacts", "Time/Step in damped contacts",
+               most_coarser - most_coarser_in_contacts);
     Refinement mesh{{}, most_coarser};
     for (const auto &[path, text] : scene)
       if (ends(path, "/Element size"))

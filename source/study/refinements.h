@@ -24,7 +24,7 @@ namespace taut
     {
       std::string name;
       Kind kind;
-      double value; ///< in the file
+      double value; ///< at the level of the file
       std::vector<std::string> entries;
 
       /// The value with its size halved @p n times; negative: doubled.
@@ -38,7 +38,8 @@ namespace taut
   };
 
   /// The time step, and the mesh if the scene has elements. @p scene is all entries by path. The
-  /// coarsest values are eight times those of the file, or as coarse as whole numbers allow.
+  /// coarsest values are eight times those of the file, or as coarse as whole numbers allow. Steps
+  /// in contacts with dampers are twice those of the file at the coarsest.
   std::vector<Refinement> find_refinements(const std::map<std::string, std::string> &scene);
 } // namespace taut
 

@@ -120,8 +120,6 @@ namespace taut
     if (constraints.n_of_all() > 0)
       out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
           << " m, peak over mean " << s.resolution << '\n';
-    for (const Warning &warning : warnings())
-      out << "  Warning: " << warning.message << '\n';
     return out.str();
   }
 } // namespace taut

@@ -552,6 +552,14 @@ namespace taut
                                  parts->step.history().forces().old_A);
   }
 
+  namespace
+  {
+    /// Searches for what the steps that see a feature do not see, and all steps of one, about half
+    /// a second; the check of steps makes no more, either.
+    constexpr int most_searches = 4;
+    constexpr double most_steps_of_search = 8e5;
+  } // namespace
+
   const UnseenFeature &Motion::unseen_feature()
   {
     const LoadsAtStart loads = options.start == Start::equilibrium ? LoadsAtStart::balanced
@@ -571,19 +579,33 @@ namespace taut
       return find_unseen_feature(all, structure.communicator(), loads, initial->state.time, step,
                                  std::max(1L, n), places);
     };
-    *unseen = find(Places::few, options.step);
+    const auto take = [&](const UnseenFeature &found)
+    {
+      const double seeing = std::min(found.longest_step, unseen->longest_step);
+      if (found.width < unseen->width)
+        *unseen = found;
+      unseen->longest_step = seeing;
+    };
+    take(find(Places::few, options.step));
     const UnseenFeature local =
         find(Places::many, is_adaptive ? options.steps.longest(options.step) : options.step);
-    if (local.name.empty())
-      return *unseen;
-    if (is_adaptive)
+    if (!is_adaptive)
+      take(local);
+    else if (!local.name.empty())
       unseen->local = std::make_shared<const UnseenFeature>(local);
-    else
+    // Steps that see what is lost most may lose something narrower.
+    const double n_all = structure.communicator().max(static_cast<double>(all.size())),
+                 most_steps = most_steps_of_search / (n_all + 1.),
+                 length = static_cast<double>(n_steps) * options.step;
+    for (int k = 0; k < most_searches && !unseen->name.empty() && !unseen->is_all_seen &&
+                    length <= most_steps * unseen->longest_step;
+         ++k)
     {
-      const double seeing = std::min(local.longest_step, unseen->longest_step);
-      if (local.width < unseen->width)
-        *unseen = local;
-      unseen->longest_step = seeing;
+      const double longest = unseen->longest_step;
+      take(find(Places::few, longest));
+      if (!is_adaptive)
+        take(find(Places::many, longest));
+      unseen->is_all_seen = unseen->longest_step == longest;
     }
     return *unseen;
   }

@@ -23,6 +23,9 @@ namespace taut
     /// The longest step that sees it and all others, a part of the step by a power of two [s].
     double longest_step = std::numeric_limits<double>::infinity();
 
+    /// Whether a search with this step finds nothing.
+    bool is_all_seen = false;
+
     /// Whether few places of a load in space, at which adaptive steps look, do not show it.
     bool is_local = false;
 

@@ -17,9 +17,6 @@ namespace
   /// Parts of the decidable scenes that agree, and that do so in vain; part that is not decided.
   constexpr double least_agreed = .6, most_alarms = .05, most_undecided = .1;
 
-  /// The same of compound scenes: of strips a warning of contact energy says more than it has to.
-  constexpr double most_alarms_of_compound = .12;
-
   constexpr unsigned long default_scenes = 100, default_seed = 1;
 
   unsigned long from_environment(const char *name, const unsigned long otherwise)
@@ -170,9 +167,7 @@ namespace
     EXPECT_EQ(count(Verdict::silent_and_wrong), 0.) << "see " << path;
     EXPECT_EQ(count(Verdict::crashed), 0.) << "see " << path;
     EXPECT_GE(agreed + alarms, least_agreed * (n - undecided));
-    EXPECT_LE(alarms,
-              std::ceil((field == hunt::Field::compound ? most_alarms_of_compound : most_alarms) *
-                        (agreed + alarms)));
+    EXPECT_LE(alarms, std::ceil(most_alarms * (agreed + alarms)));
     EXPECT_LE(undecided, most_undecided * n);
   }
 } // namespace

@@ -133,7 +133,7 @@ TEST(Statistics, links_have_their_impulse_largest_force_and_open_time)
     {
       const double N = run().force[i][k];
       largest = std::fabs(N) > std::fabs(largest) ? N : largest;
-      impulse += k > 0 ? step * N : 0.;
+      impulse += k > 0 ? .5 * step * (run().force[i][k - 1] + N) : 0.;
       open += k > 0 && N == 0. ? step : 0.;
     }
     const auto &said = run().said["links"][names[i]];
@@ -224,4 +224,21 @@ TEST(Statistics, the_run_is_named_and_ranges_have_the_unit_of_the_value)
   EXPECT_EQ(loss["unit"], "1");
   EXPECT_TRUE(loss["inside"].get<bool>());
   EXPECT_EQ(j["links"]["rod"]["impulse"]["unit"], "N s");
+}
+
+// A load that grows with time pulls a rod until the end: its impulse is c T^2 / 2, the mass has
+// none. Forces at the ends of steps alone have half a step too much, 1.25 %.
+TEST(Statistics, the_impulse_of_a_link_that_is_loaded_at_the_end)
+{
+  constexpr double rate = 30., until = .4;
+  const nlohmann::json said =
+      say("Gravity = 0, 0; Start = given\nMass m: Motions = y; Mass = 2e-3\n"
+          "Link rod: Type = joint; From = ground; To = m; Direction = 0, 1; Stiffness = 1e6\n"
+          "Load l: On = m; Magnitude = -" +
+              number(rate) + "*t\nTime: Step = 0.01; End = " + number(until) +
+              "; Scheme = generalised-alpha; Check steps = no\n",
+          {})
+          .json;
+  const double exact = .5 * rate * until * until;
+  EXPECT_NEAR(value(said["links"]["rod"], "impulse"), exact, 1e-3 * exact);
 }

@@ -161,9 +161,20 @@ TEST(UnseenFeatures, the_step_that_is_named_sees_the_wider_features_too)
   EXPECT_TRUE(has(log, "the load on 'm' changes for about 0.01")) << log;
   const double step = needed(log);
   EXPECT_GT(step, 0.) << log;
-  const std::string seeing =
-      log_of(scene, {"Time.Step=" + number(step), "Network.Loads=g"});
+  const std::string seeing = log_of(scene, {"Time.Step=" + number(step), "Network.Loads=g"});
   EXPECT_FALSE(has(seeing, "changes for about")) << step << seeing;
+}
+
+// The larger pulse, at the end, moves nothing: steps that see it and lose the other one, of 0.1 N
+// s, agree with the run.
+TEST(UnseenFeatures, a_pulse_does_not_hide_a_narrower_one)
+{
+  const std::string log =
+      log_of("Gravity = 0, 0\nMass m: Motions = y; Mass = 1\nSpring k: To = m; Stiffness = 100\n"
+             "Load f: On = m; Magnitude = 10*sin(10*t)+29.5*exp(-((t-.295)/3.33e-3)^2)\n"
+             "  +2000*(abs(t-.16749)<2.5e-5)\nTime: Step = 1e-2; End = .3\n");
+  EXPECT_TRUE(has(log, "the load on 'm' changes for about 5e-05 s at t = 0.1675 s")) << log;
+  EXPECT_LT(needed(log), 2.5e-6) << log;
 }
 
 TEST(UnseenFeatures, pulse_beside_a_slow_load)

@@ -103,7 +103,7 @@ namespace taut
     /// Warnings for the measures beyond their bounds.
     std::vector<Warning> warnings() const;
 
-    /// One line for the log, and one for each warning.
+    /// One line for the log, without the warnings.
     std::string report() const;
 
     /// Message for a run with an energy beyond wrong_energy; empty: no error.
