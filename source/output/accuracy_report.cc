@@ -88,9 +88,6 @@ namespace taut
     constexpr double golden_ratio = 1.618033988749895,
                      ratio_of_steps = golden_ratio * golden_ratio * golden_ratio;
 
-    /// Shorter steps are not made beyond this ratio: the search of unseen features ends there.
-    constexpr double most_ratio = 1 << 14;
-
     /// Power of the step ratio in the tolerance of adaptive steps: local errors have order three,
     /// errors of a run order two.
     constexpr double power_of_tolerance = 1.5;
@@ -161,9 +158,8 @@ namespace taut
     /// Ratio of the step to a shorter one that sees all of the scene.
     double ratio_that_sees(const RunInSteps &run)
     {
-      const double wanted = std::min(run.motion.settings().step / run.seeing_step, most_ratio);
       double ratio = ratio_of_steps;
-      while (ratio < wanted)
+      while (ratio * run.seeing_step < run.motion.settings().step)
         ratio *= golden_ratio;
       return ratio;
     }
@@ -192,7 +188,7 @@ namespace taut
   bool StepAccuracy::sees_more(const RunInSteps &run)
   {
     const StepperOptions &options = run.motion.settings();
-    if (options.steps.adaptive() || options.step > most_ratio * run.seeing_step)
+    if (options.steps.adaptive() || run.seeing_step == 0.)
       return false;
     const double ratio = ratio_that_sees(run);
     return ratio == ratio_of_steps || work_of(run) * ratio <= most_work;
@@ -272,7 +268,7 @@ namespace taut
     if ((run.at_any_cost && first_ratio == ratio_of_steps) || is_cheap(1. / first_ratio))
       compare_with_shorter(stop);
     else if (first_ratio > ratio_of_steps)
-      reason = "something lies between them";
+      reason = "something lies between them, and steps that see it take long";
     else if (is_followed_by_longer() && is_cheap(ratio_of_steps))
       compare_with_longer(stop);
     else

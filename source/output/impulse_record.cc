@@ -2,6 +2,7 @@
 #include "output/distance_to_range.h"
 
 #include "base/gather_entries.h"
+#include "output/impulse_of_step.h"
 #include "output/impulse_record.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -142,13 +143,14 @@ namespace taut
     impulses = impulse;
   }
 
-  void ImpulseRecord::record(const State &state, const StepReport &report)
+  void ImpulseRecord::record(const Constraints &constraints, const State &state,
+                             const StepReport &report)
   {
     for (std::size_t i = 0; i < multiplier.size(); ++i)
     {
       const double N = state.multiplier[rows[i]];
       impulse[item_of[i]] +=
-          (report.is_mean(rows[i]) ? N : .5 * (N + multiplier[i])) * state.last_step;
+          impulse_of_step(constraints, report, rows[i], multiplier[i], N, state.last_step);
       multiplier[i] = N;
     }
     if (n_steps++ % stride != 0) // the last end is none of those to be kept

@@ -30,7 +30,7 @@ namespace taut
                   const ConnectedBodies &groups, const State &start);
 
     /// Records an accepted step.
-    void record(const State &state, const StepReport &report);
+    void record(const Constraints &constraints, const State &state, const StepReport &report);
 
     /// Sums of the sizes of the impulses so far, by group and kind [N s, N m s].
     std::vector<double> sizes() const;

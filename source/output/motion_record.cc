@@ -204,7 +204,7 @@ namespace taut
 
   void MotionRecord::record(const State &state, const StepReport &report)
   {
-    impulses.record(state, report);
+    impulses.record(constraints, state, report);
     add_speeds(state);
     const double early = rounding_of_times * state.last_step;
     for (bool is_first = true; n_recorded < n && time_of(n_recorded) <= state.time + early;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
+#include "output/impulse_of_step.h"
 #include "output/signals.h"
 #include <taut/base/archive.h>
 #include <taut/output/statistics.h>
@@ -58,7 +59,7 @@ namespace taut
       LinkQuantities &link = links[n++];
       const double force = step.state.multiplier[i];
       (force == 0. ? link.open_time : link.closed_time) += dt;
-      link.impulse += (step.report.is_mean(i) ? force : .5 * (link.last_force + force)) * dt;
+      link.impulse += impulse_of_step(*rows, step.report, i, link.last_force, force, dt);
       link.last_force = force;
       if (link.is_dropper && dt == 0.)
         link.dropper.start(force);

@@ -186,7 +186,7 @@ namespace taut
     return parameters.unused_scheme_entries(motion->choice().name, motion->choice().entries);
   }
 
-  /// Steps that do not see all of the scene are not compared with others, which may not, either.
+  /// Steps that do not see all of the scene are compared with others only if these do.
   void Simulation::make_accuracy_report()
   {
     std::vector<Warning> unseen;
@@ -199,7 +199,7 @@ namespace taut
                       : motion->unseen_feature().is_all_seen ? unseen.front().limit
                                                              : 0.};
     if (!unseen.empty() && !StepAccuracy::sees_more(run))
-      reason = "something lies between them";
+      reason = "something lies between them, and steps that see it take long";
     else if (parameters.check_steps == "automatic" && parameters.scheme != "automatic")
       reason = "the Scheme is given by name: set Time/Check steps = yes for it";
     else if (parameters.check_steps == "automatic" && n_steps() > 0 &&

@@ -49,18 +49,23 @@ namespace taut
       refinement.groups.push_back(
           {n > 1 ? "mesh " + std::to_string(n) : "mesh", kind, value, {path}});
     }
+
     /// Whether contacts of the scene have dampers, which take steps of their own length.
     bool has_damped_contacts(const std::map<std::string, std::string> &scene)
     {
-      return std::any_of(
-          scene.begin(), scene.end(),
-          [](const auto &entry)
-          {
-            const std::string &path = entry.first;
-            return ((path.rfind("Network/Link ", 0) == 0 && ends(path, "/Damping")) ||
-                    ends(path, "/Contact damping")) &&
-                   std::stod(entry.second) > 0.;
-          });
+      const std::string tail = "/Damping";
+      for (const auto &[path, damping] : scene)
+      {
+        if (!ends(path, tail) || damping.empty() || !(std::stod(damping) > 0.))
+          continue;
+        const std::string owner = path.substr(0, path.size() - tail.size());
+        const auto type = scene.find(owner + "/Type");
+        const bool is_link = owner.rfind("Network/Link ", 0) == 0 && type != scene.end() &&
+                             (type->second == "stop" || type->second == "dropper");
+        if (is_link || ends(owner, "Droppers"))
+          return true;
+      }
+      return false;
     }
   } // namespace
 

@@ -554,10 +554,10 @@ namespace taut
 
   namespace
   {
-    /// Searches for what the steps that see a feature do not see, and all steps of one, about half
-    /// a second; the check of steps makes no more, either.
+    /// Searches for what the steps that see a feature do not see, and steps in each: some tenths of
+    /// a second for a load.
     constexpr int most_searches = 4;
-    constexpr double most_steps_of_search = 8e5;
+    constexpr double most_steps_of_search = 1e5;
   } // namespace
 
   const UnseenFeature &Motion::unseen_feature()
@@ -585,28 +585,27 @@ namespace taut
       if (found.width < unseen->width)
         *unseen = found;
       unseen->longest_step = seeing;
+      return found.is_complete;
     };
     take(find(Places::few, options.step));
     const UnseenFeature local =
         find(Places::many, is_adaptive ? options.steps.longest(options.step) : options.step);
     if (!is_adaptive)
       take(local);
-    else if (!local.name.empty())
-      unseen->local = std::make_shared<const UnseenFeature>(local);
     // Steps that see what is lost most may lose something narrower.
-    const double n_all = structure.communicator().max(static_cast<double>(all.size())),
-                 most_steps = most_steps_of_search / (n_all + 1.),
-                 length = static_cast<double>(n_steps) * options.step;
+    const double length = static_cast<double>(n_steps) * options.step;
     for (int k = 0; k < most_searches && !unseen->name.empty() && !unseen->is_all_seen &&
-                    length <= most_steps * unseen->longest_step;
+                    length <= most_steps_of_search * unseen->longest_step;
          ++k)
     {
       const double longest = unseen->longest_step;
-      take(find(Places::few, longest));
+      bool is_complete = take(find(Places::few, longest));
       if (!is_adaptive)
-        take(find(Places::many, longest));
-      unseen->is_all_seen = unseen->longest_step == longest;
+        is_complete = take(find(Places::many, longest)) && is_complete;
+      unseen->is_all_seen = is_complete && unseen->longest_step == longest;
     }
+    if (is_adaptive && !local.name.empty())
+      unseen->local = std::make_shared<const UnseenFeature>(local);
     return *unseen;
   }
 

@@ -280,6 +280,13 @@ namespace taut
       return off > 0. ? off / std::max({std::fabs(a), std::fabs(b), std::fabs(now)}) : 0.;
     }
 
+    UnseenFeature nothing(const bool is_complete)
+    {
+      UnseenFeature result;
+      result.is_complete = is_complete;
+      return result;
+    }
+
     /// Looks at a load in space in places that @p seen has, and returns what all forces show, too.
     /// Where they do not, they are looked at alone, if this is cheap.
     UnseenFeature look_in_space(const Excitation &excitation, const Excitation &seen,
@@ -309,7 +316,7 @@ namespace taut
       const double n_forces = static_cast<double>(n_steps) * static_cast<double>(n_samples) *
                               static_cast<double>(excitation.n_dofs);
       if (n_forces > most_forces)
-        return {};
+        return nothing(false);
       Excitation as_a_whole = excitation;
       as_a_whole.at = [&](const double t) { return excitation.of_all_forces(t, false); };
       return look_for(as_a_whole, loads, start, step, n_steps, n_samples);
@@ -327,7 +334,7 @@ namespace taut
           look_in_space(excitation, closely, loads, start, step, n_steps, n_samples);
       if (result.name.empty() || bump(result, start, end, excitation.at) >=
                                      least_shown * bump(result, start, end, closely.at))
-        return {};
+        return nothing(result.is_complete);
       result.is_local = true;
       return result;
     }
@@ -338,9 +345,10 @@ namespace taut
                                     const double start, const double step, const long n_steps,
                                     const Places places)
   {
-    UnseenFeature narrowest;
     if (n_steps < 1 || n_steps > most_steps)
-      return narrowest;
+      return nothing(false);
+    UnseenFeature narrowest;
+    bool is_complete = true;
     const long n_samples = samples_in_step(n_steps, static_cast<long>(all.size()) + 1);
     double n_in_space = 0.;
     for (const Excitation &excitation : all)
@@ -352,14 +360,22 @@ namespace taut
       if (!excitation.is_costly)
         try
         {
-          if (places == Places::many && (!excitation.at_places || n_places <= fewest_places))
+          if (places == Places::many && !excitation.at_places)
             continue;
+          if (places == Places::many && n_places <= fewest_places)
+          {
+            is_complete = false;
+            continue;
+          }
           const UnseenFeature own =
               places == Places::many
                   ? look_closely(excitation, n_places, loads, start, step, n_steps, n_samples)
               : excitation.at_places
                   ? look_in_space(excitation, excitation, loads, start, step, n_steps, n_samples)
                   : look_for(excitation, loads, start, step, n_steps, n_samples);
+          is_complete = is_complete && own.is_complete;
+          if (!std::isfinite(own.width))
+            continue;
           const double seeing = std::min(own.longest_step, narrowest.longest_step);
           if (own.width < narrowest.width)
             narrowest = own;
@@ -367,8 +383,10 @@ namespace taut
         }
         catch (const UserError &)
         {
+          is_complete = false;
           // The run says so if it comes to a time without a value.
         }
+    narrowest.is_complete = !processes.any(!is_complete);
     // The narrowest of all ranks.
     const double least = -processes.max(-narrowest.width);
     if (!std::isfinite(least))

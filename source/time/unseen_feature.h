@@ -20,11 +20,15 @@ namespace taut
     /// Of a block of the same height and area there; infinite: there is none [s].
     double width = std::numeric_limits<double>::infinity();
 
-    /// The longest step that sees it and all others, a part of the step by a power of two [s].
+    /// The longest step that sees what each excitation loses most, a part of the step by a power of
+    /// two [s].
     double longest_step = std::numeric_limits<double>::infinity();
 
-    /// Whether a search with this step finds nothing.
+    /// Whether a search with this step was complete and found nothing.
     bool is_all_seen = false;
+
+    /// Whether all excitations that have samples were looked at, those in space in many places.
+    bool is_complete = true;
 
     /// Whether few places of a load in space, at which adaptive steps look, do not show it.
     bool is_local = false;

@@ -239,6 +239,7 @@ TEST(Dials, halve_sizes_double_counts_and_add_refinements)
   for (const std::string damping : {"0", "5"})
     EXPECT_EQ(taut::find_refinements({{"Time/Step", "1"},
                                       {"Time/Step in damped contacts", "1"},
+                                      {"Network/Link s/Type", "stop"},
                                       {"Network/Link s/Damping", damping}})[0]
                   .values(4),
               damping == "0" ? Texts{"0.5"} : (Texts{"0.5", "0.125"}));
