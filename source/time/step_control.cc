@@ -53,10 +53,11 @@ namespace taut
                       "'fixed': all steps have the length Step. 'adaptive': Step times powers of "
                       "two, by the local error; impacts and jumps of loads are met by short steps",
                       Selection("fixed|adaptive"));
-    prm.add_parameter("Step in damped contacts", in_damped_contacts,
-                      "In contacts of links with dampers Step is halved until it keeps the rebound "
-                      "within a percent: they take steps so many times as long as that asks for [1]",
-                      Double(1e-6, 1e3));
+    prm.add_parameter(
+        "Step in damped contacts", in_damped_contacts,
+        "In contacts of links with dampers Step is halved until it keeps the rebound "
+        "within a percent: they take steps so many times as long as that asks for [1]",
+        Double(1e-6, 1e3));
     prm.enter_subsection("Adaptive step");
     prm.add_parameter("Tolerance", tolerance,
                       "Largest local error of a step over the largest displacement so far [1]",

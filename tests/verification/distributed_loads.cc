@@ -391,6 +391,20 @@ TEST(DistributedLoads, loads_fade_below_the_smallest_number)
   }
 }
 
+// A load that grows from numbers without all of their digits lifts a string off a rigid stop.
+TEST(DistributedLoads, a_stop_under_a_load_that_grows_from_the_smallest_number)
+{
+  const std::string log =
+      log_of("Gravity = 0, 0; Start = given\n"
+             "Wire w: To = 40, 0; Components = string; Mass per length = 1.8; Tension = 3856;\n"
+             "  Element size = 4; Mass damping = 2\nSupport e: Wire = w; Positions = 0, 40\n"
+             "Load l: Type = distributed; On = w @ 0;\n"
+             "  Magnitude = 38.6*exp(-((s-9.7)/5.05)^2)*exp(-((t-1.161)/6.4347e-3)^2)\n"
+             "Link st: Type = stop; From = ground; To = w @ 30; Direction = 0, 1\n"
+             "Time: Step = 1.52e-4; End = 1.2; Check steps = no\n");
+  EXPECT_TRUE(has(log, "steps in")) << log;
+}
+
 // A shape whose way has no value at a moment at which the load has one.
 TEST(DistributedLoads, ways_without_a_value_leave_the_load_as_it_is)
 {
