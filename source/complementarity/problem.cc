@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "complementarity/problem.h"
+#include "base/least_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +64,7 @@ namespace taut
     /// sum of terms, which have them from the smallest normal number on.
     double relative(double numerator, double denominator)
     {
-      constexpr double least =
-          std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-      if (numerator <= least)
+      if (numerator <= least_number)
         return 0.;
       return denominator == 0. ? std::numeric_limits<double>::infinity() : numerator / denominator;
     }

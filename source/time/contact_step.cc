@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time/contact_step.h"
+#include "base/least_number.h"
 #include "time/matrix_norms.h"
 #include <algorithm>
 #include <cmath>
@@ -339,6 +340,8 @@ namespace taut
                                                                    : laws.polished(i, -gap, N));
     else if (has_mean_spring(i))
       u = constraints[i].cone.project(u);
+    if (std::fabs(u) < least_number)
+      u = 0.;
     spring.du = u - spring.u;
     spring.u = u;
     spring.v = c.velocity * spring.du + known_v;
