@@ -120,7 +120,8 @@ TEST(Bounds, impulses_that_are_off_are_named)
                                             {107, 496},
                                             {109, 1627},
                                             {111, 1891, Field::given},
-                                            {115, 955, Field::given}})
+                                            {115, 955, Field::given},
+                                            {121, 1476, Field::given}})
   {
     const hunt::Finding finding = hunt::judge(hunt::make_scene(seed, number, field));
     EXPECT_EQ(hunt::name(finding.verdict), hunt::name(Verdict::warned_and_wrong))
