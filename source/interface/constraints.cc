@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -29,15 +31,6 @@ namespace taut
   Constraints::Constraints(const Lasting<Structure> bodies, std::vector<ConstraintData> all)
       : structure(bodies), constraints(std::move(all))
   {
-    const auto check = [&](const Rows &rows)
-    {
-      structure.communicator().agree(
-          [&]
-          {
-            for (const std::size_t i : rows)
-              check_constraint(constraints[i], structure);
-          });
-    };
     sort();
     for (const std::size_t i : sliding_rows())
       place(i).set_course({});
@@ -46,26 +39,75 @@ namespace taut
     check(sliding_rows());
   }
 
+  Constraints::Constraints(const Lasting<Structure> bodies, std::vector<ConstraintData> all,
+                           CutNumbers numbers)
+      : Constraints(bodies, std::move(all))
+  {
+    share_cuts(std::move(numbers));
+  }
+
+  void Constraints::check(const Rows &rows) const
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          for (const std::size_t i : rows)
+            check_constraint(constraints[i], structure);
+        });
+  }
+
+  void Constraints::share_cuts(CutNumbers numbers)
+  {
+    const std::size_t n_common = size() - n_cuts;
+    shared_rows = std::make_shared<const DistributedRows>(
+        structure.communicator(), std::move(numbers.here), numbers.n_of_all, n_common);
+  }
+
+  /// Other cuts in place of those of this rank.
+  void Constraints::replace_cuts(std::vector<ConstraintData> cuts)
+  {
+    const auto end_of_cuts = constraints.begin() + static_cast<std::ptrdiff_t>(n_cuts);
+    first_turning = first_turning - n_cuts + cuts.size();
+    first_sliding = first_sliding - n_cuts + cuts.size();
+    n_cuts = cuts.size();
+    cuts.insert(cuts.end(), std::make_move_iterator(end_of_cuts),
+                std::make_move_iterator(constraints.end()));
+    constraints = std::move(cuts);
+  }
+
   void Constraints::distribute()
   {
-    const std::size_t n_of_cuts = n_cuts, n_common = size() - n_of_cuts;
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < n_of_cuts; ++i)
+    if (shared_rows)
+      return;
+    CutNumbers numbers = {n_cuts};
+    std::vector<ConstraintData> cuts;
+    for (std::size_t i = 0; i < n_cuts; ++i)
       if (!constraints[i].terms.empty())
       {
-        if (numbers.size() < i)
-          constraints[numbers.size()] = std::move(constraints[i]);
-        numbers.push_back(i);
+        cuts.push_back(std::move(constraints[i]));
+        numbers.here.push_back(i);
       }
-    n_cuts = numbers.size();
-    const std::size_t n_gone = n_of_cuts - n_cuts;
-    constraints.erase(constraints.begin() + static_cast<std::ptrdiff_t>(n_cuts),
-                      constraints.begin() + static_cast<std::ptrdiff_t>(n_of_cuts));
-    constraints.shrink_to_fit();
-    first_turning -= n_gone;
-    first_sliding -= n_gone;
-    shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
-                                                          std::move(numbers), n_of_cuts, n_common);
+    replace_cuts(std::move(cuts));
+    share_cuts(std::move(numbers));
+    arrange();
+  }
+
+  void Constraints::gather_cuts()
+  {
+    if (!shared_rows)
+      return;
+    const std::size_t n_of_cuts = n_of_all() - common_rows().size();
+    std::vector<std::size_t> numbers(n_of_cuts);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const std::vector<Label> known = labels(numbers);
+    std::vector<ConstraintData> cuts(n_of_cuts);
+    for (std::size_t number = 0; number < n_of_cuts; ++number)
+      if (const std::size_t i = index(number); i < n_cuts)
+        cuts[number] = std::move(constraints[i]);
+      else
+        cuts[number].name = known[number].name;
+    replace_cuts(std::move(cuts));
+    shared_rows = nullptr;
     arrange();
   }
 

@@ -146,9 +146,9 @@ namespace taut
       return false;
     if (parameters.form == "matrix-free")
       return true;
-    if (parameters.form != "automatic" || !is_at_rest || constraints.size() <= most_dense_rows ||
-        suits_half_columns(structure, constraints) || has_conditions_inside(structure) ||
-        !have_long_columns(structure))
+    if (parameters.form != "automatic" || !is_at_rest ||
+        constraints.n_of_all() <= most_dense_rows || suits_half_columns(structure, constraints) ||
+        has_conditions_inside(structure) || !have_long_columns(structure))
       return false;
     // A long column has a number for each DoF of the bodies of its row.
     std::vector<double> sums = {0., static_cast<double>(structure.n_dofs())};

@@ -2,11 +2,18 @@
 #include "model/entry_path.h"
 
 #include "base/about_entry.h"
+#include "base/text.h"
 #include "scene/entries.h"
 #include <taut/model/scene_bodies.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <tuple>
 
 namespace taut
@@ -77,6 +84,9 @@ namespace taut
     std::map<unsigned int, unsigned int> position;
     for (const unsigned int p : division.part)
       position.insert({p, 0});
+    if (const std::vector<unsigned int> &first = division.first_of_rank; !first.empty())
+      for (unsigned int p = first.front(); p < first.back(); ++p)
+        position.insert({p, 0});
     for (auto &[p, at] : position)
     {
       at = part.size();
@@ -91,44 +101,185 @@ namespace taut
     return cells;
   }
 
+  namespace
+  {
+    /// DoFs of each part that can be tied, ascending: number of the DoF, part, position in the
+    /// part.
+    std::vector<std::tuple<unsigned int, unsigned int, unsigned int>>
+    free_dofs(const BodyCells &all, const std::vector<std::vector<unsigned int>> &cells)
+    {
+      std::vector<std::tuple<unsigned int, unsigned int, unsigned int>> result;
+      std::vector<unsigned int> dofs;
+      for (std::size_t p = 0; p < cells.size(); ++p)
+      {
+        dofs.clear();
+        for (const unsigned int cell : cells[p])
+          dofs.insert(dofs.end(), all.dofs.begin() + all.begin[cell],
+                      all.dofs.begin() + all.begin[cell + 1]);
+        std::sort(dofs.begin(), dofs.end());
+        dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (!all.is_determined[dofs[i]])
+            result.emplace_back(all.numbers.empty() ? dofs[i] : all.numbers[dofs[i]], p, i);
+      }
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+  } // namespace
+
+  /// A cut between two parts, whose number is the next one.
+  void SceneBodies::add_cut(const std::string &name, const BodyParts &body, const unsigned int dof,
+                            const std::array<PartWithDof, 2> &sides)
+  {
+    CutConstraint constraint{name + " cut at DoF " + std::to_string(dof), false, n_cuts_of_all++};
+    for (const bool is_second : {false, true})
+      if (const std::size_t k = body.index[sides[is_second].part]; k != elsewhere)
+      {
+        constraint.terms.push_back({k, {}});
+        constraint.terms.back().form.add(sides[is_second].own_dof, is_second ? -1. : 1.);
+      }
+    cuts.push_back(std::move(constraint));
+  }
+
   void SceneBodies::tie_parts(const std::string &name, const BodyParts &body,
                               const CellsOfParts &cells)
   {
-    const BodyCells &all = body.division.body->cells();
-    std::vector<std::tuple<unsigned int, unsigned int, unsigned int>> copies; // DoF, part, own DoF
-    for (std::size_t p = 0; p < cells.size(); ++p)
-    {
-      std::vector<unsigned int> dofs;
-      for (const unsigned int cell : cells[p])
-        dofs.insert(dofs.end(), all.dofs.begin() + all.begin[cell],
-                    all.dofs.begin() + all.begin[cell + 1]);
-      std::sort(dofs.begin(), dofs.end());
-      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (!all.is_determined[dofs[i]])
-          copies.emplace_back(dofs[i], p, i);
-    }
-    std::sort(copies.begin(), copies.end());
+    const auto copies = free_dofs(body.division.body->cells(), cells);
     for (std::size_t c = 1; c < copies.size(); ++c)
     {
-      const unsigned int dof = std::get<0>(copies[c]);
-      if (std::get<0>(copies[c - 1]) != dof)
-        continue;
-      CutConstraint constraint{name + " cut at DoF " + std::to_string(dof), false, {}};
-      for (const auto &[copy, sign] : {std::make_pair(c - 1, 1.), std::make_pair(c, -1.)})
-        if (const std::size_t k = body.index[std::get<1>(copies[copy])]; k != elsewhere)
-        {
-          constraint.terms.push_back({k, {}});
-          constraint.terms.back().form.add(std::get<2>(copies[copy]), sign);
-        }
-      cuts.push_back(std::move(constraint));
+      const auto &[dof, part, own_dof] = copies[c];
+      const auto &[dof_before, part_before, own_dof_before] = copies[c - 1];
+      if (dof == dof_before)
+        add_cut(name, body, dof, {{{part_before, own_dof_before}, {part, own_dof}}});
     }
+  }
+
+  /// The rank to which the number of a DoF leads collects the parts with the DoF, numbers the cuts
+  /// between them, and tells the ranks of these parts.
+  void SceneBodies::tie_distributed_parts(const std::string &name, const BodyParts &body,
+                                          const CellsOfParts &cells)
+  {
+    using Numbers = std::vector<unsigned int>;
+    const DivisibleBody &divided = *body.division.body;
+    const Communicator processes = divided.processes();
+    const auto exchange = [&](const std::map<unsigned int, Numbers> &sent)
+    { return dealii::Utilities::MPI::some_to_some(processes.of_mpi(), sent); };
+
+    const auto copies = free_dofs(divided.cells(), cells);
+    std::map<unsigned int, Numbers> sent;
+    for (const auto &[dof, part, own_dof] : copies)
+    {
+      const std::size_t rank =
+          static_cast<std::size_t>(dof) * processes.size() / divided.cells().n_dofs();
+      Numbers &list = sent[static_cast<unsigned int>(rank)];
+      list.insert(list.end(), {dof, part});
+    }
+    std::map<unsigned int, std::map<unsigned int, unsigned int>> parts_of; // of DoFs, with ranks
+    for (const auto &[rank, list] : exchange(sent))
+      for (std::size_t e = 0; e < list.size(); e += 2)
+        parts_of[list[e]][list[e + 1]] = rank;
+
+    std::size_t n_own = 0;
+    for (const auto &[dof, parts] : parts_of)
+      n_own += parts.size() - 1;
+    std::vector<std::size_t> n_of_rank;
+    processes.gather(n_own, n_of_rank);
+    std::size_t first =
+        std::accumulate(n_of_rank.begin(), n_of_rank.begin() + processes.rank(), std::size_t(0));
+    std::map<unsigned int, Numbers> told; // DoF, number of its first cut, number of parts, parts
+    for (const auto &[dof, parts] : parts_of)
+    {
+      std::set<unsigned int> ranks;
+      for (const auto &[part, rank] : parts)
+        ranks.insert(rank);
+      for (const unsigned int rank : ranks)
+      {
+        if (parts.size() == 1)
+          continue;
+        Numbers &list = told[rank];
+        list.insert(list.end(), {dof, static_cast<unsigned int>(first),
+                                 static_cast<unsigned int>(parts.size())});
+        for (const auto &[part, other] : parts)
+          list.push_back(part);
+      }
+      first += parts.size() - 1;
+    }
+
+    const auto position = [&](const unsigned int dof, const unsigned int part)
+    {
+      const auto at =
+          std::lower_bound(copies.begin(), copies.end(), std::make_tuple(dof, part, 0u));
+      return at != copies.end() && std::get<0>(*at) == dof && std::get<1>(*at) == part
+                 ? std::get<2>(*at)
+                 : 0u;
+    };
+    const std::size_t before = n_cuts_of_all;
+    for (const auto &[rank, list] : exchange(told))
+      for (std::size_t e = 0; e < list.size(); e += 3 + list[e + 2])
+      {
+        const unsigned int dof = list[e], *const parts = &list[e + 3];
+        n_cuts_of_all = before + list[e + 1];
+        for (unsigned int p = 1; p < list[e + 2]; ++p)
+          if (body.index[parts[p - 1]] != elsewhere || body.index[parts[p]] != elsewhere)
+            add_cut(name, body, dof,
+                    {{{parts[p - 1], position(dof, parts[p - 1])},
+                      {parts[p], position(dof, parts[p])}}});
+          else
+            ++n_cuts_of_all;
+      }
+    n_cuts_of_all = std::accumulate(n_of_rank.begin(), n_of_rank.end(), before);
+  }
+
+  /// The parts of distributed bodies at the places of the scene. Where several ranks have a place,
+  /// at a node between them, the first part counts.
+  void SceneBodies::find_places(const Scene &scene)
+  {
+    const auto note = [&](const Attachment &at)
+    {
+      if (at.kind != Attachment::Kind::body)
+        return;
+      const Partition::Division &division = custom_bodies[at.index].division;
+      if (!division.body || !division.body->is_distributed())
+        return;
+      const auto [known, is_new] = part_of_place.emplace(
+          std::make_tuple(at.index, at.place.x, at.place.y, at.place.z), std::nullopt);
+      if (!is_new)
+        return;
+      double found = std::numeric_limits<double>::infinity();
+      try
+      {
+        found = division.part[division.body->cell_at(at.place)];
+      }
+      catch (const UserError &) // other ranks may have it
+      {
+      }
+      found = -communicator().max(-found);
+      if (std::isfinite(found))
+        known->second = static_cast<std::size_t>(found);
+    };
+    for (const Link &link : scene.links)
+    {
+      note(link.from);
+      note(link.to);
+    }
+    for (const Load &load : scene.loads)
+      note(load.target);
+    for (const Probe &probe : scene.probes)
+      note(probe.point);
   }
 
   std::size_t SceneBodies::part_at(const std::size_t body, const Coordinates &place) const
   {
     const Partition::Division &division = custom_bodies[body].division;
-    return division.body ? division.part[division.body->cell_at(place)] : 0;
+    if (!division.body)
+      return 0;
+    if (!division.body->is_distributed())
+      return division.part[division.body->cell_at(place)];
+    const auto known = part_of_place.find(std::make_tuple(body, place.x, place.y, place.z));
+    if (known == part_of_place.end() || !known->second)
+      throw UserError(
+          to_text("the point ", place.x, ' ', place.y, ' ', place.z, " is not on the body"));
+    return *known->second;
   }
 
   std::size_t SceneBodies::index_at(const std::size_t body, const Coordinates &place) const
@@ -139,8 +290,10 @@ namespace taut
   std::size_t SceneBodies::index_at_node(const std::size_t body, const unsigned int node) const
   {
     const Partition::Division &division = custom_bodies[body].division;
-    return custom_bodies[body]
-        .index[division.body ? division.part[division.body->cell_at_node(node)] : 0];
+    if (!division.body)
+      return custom_bodies[body].index[0];
+    const std::size_t cell = division.body->cell_at_node(node);
+    return cell < division.part.size() ? custom_bodies[body].index[division.part[cell]] : elsewhere;
   }
 
   void SceneBodies::add_loads(const Scene &scene, const std::size_t body, const std::size_t part,

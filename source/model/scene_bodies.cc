@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 
 namespace taut
@@ -31,12 +32,14 @@ namespace taut
 
     /// The rank of each part, each mechanism and each custom body: stretches of their order, as
     /// parts of near numbers are near each other, along wires and by METIS's bisections. Where this
-    /// is too uneven, the largest first, each to the rank with the fewest DoFs so far.
+    /// is too uneven, the largest first, each to the rank with the fewest DoFs so far. Parts of
+    /// distributed bodies have their ranks.
     std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
                                         const std::vector<std::vector<std::size_t>> &mechanisms,
                                         const unsigned int n_ranks)
     {
       std::vector<std::size_t> n_dofs(partition.n_parts, 0), load(n_ranks, 0);
+      std::map<std::size_t, unsigned int> fixed; // ranks of parts of distributed bodies
       for (std::size_t i = 0; n_ranks > 1 && i < scene.wires.size(); ++i)
       {
         const std::vector<Partition::Piece> &pieces = partition.wires[i];
@@ -54,24 +57,37 @@ namespace taut
         else
         {
           n_dofs.push_back(0);
-          const BodyCells &cells = partition.bodies[i].body->cells();
-          for (std::size_t c = 0; n_ranks > 1 && c < cells.size(); ++c)
-            n_dofs[partition.bodies[i].part[c]] += cells.n_dofs() / cells.size() + 1;
+          const Partition::Division &division = partition.bodies[i];
+          const BodyCells &cells = division.body->cells();
+          if (division.first_of_rank.empty())
+            for (std::size_t c = 0; n_ranks > 1 && c < cells.size(); ++c)
+              n_dofs[division.part[c]] += cells.n_dofs() / cells.size() + 1;
+          for (unsigned int r = 0; r + 1 < division.first_of_rank.size(); ++r)
+          {
+            load[r] += cells.n_dofs() / n_ranks;
+            for (unsigned int part = division.first_of_rank[r];
+                 part < division.first_of_rank[r + 1]; ++part)
+              fixed[part] = r;
+          }
         }
 
       std::vector<unsigned int> rank(n_dofs.size(), 0);
+      for (const auto &[part, r] : fixed)
+        rank[part] = r;
       const double mean = std::accumulate(n_dofs.begin(), n_dofs.end(), 0.) / n_ranks;
-      double before = 0.;
-      for (std::size_t part = 0; mean > 0. && part < rank.size(); before += n_dofs[part++])
+      if (fixed.empty())
       {
-        rank[part] =
-            std::min(n_ranks - 1, static_cast<unsigned int>((before + .5 * n_dofs[part]) / mean));
-        load[rank[part]] += n_dofs[part];
+        double before = 0.;
+        for (std::size_t part = 0; mean > 0. && part < rank.size(); before += n_dofs[part++])
+        {
+          rank[part] =
+              std::min(n_ranks - 1, static_cast<unsigned int>((before + .5 * n_dofs[part]) / mean));
+          load[rank[part]] += n_dofs[part];
+        }
+        if (*std::max_element(load.begin(), load.end()) <= (1. + most_excess) * mean)
+          return rank;
+        std::fill(load.begin(), load.end(), 0);
       }
-      if (*std::max_element(load.begin(), load.end()) <= (1. + most_excess) * mean)
-        return rank;
-
-      std::fill(load.begin(), load.end(), 0);
       std::vector<std::size_t> order(n_dofs.size());
       std::iota(order.begin(), order.end(), 0);
       std::stable_sort(order.begin(), order.end(),
@@ -79,6 +95,8 @@ namespace taut
                        { return n_dofs[a] > n_dofs[b]; });
       for (const std::size_t part : order)
       {
+        if (fixed.count(part) != 0)
+          continue;
         rank[part] = std::min_element(load.begin(), load.end()) - load.begin();
         load[rank[part]] += n_dofs[part];
       }
@@ -132,6 +150,7 @@ namespace taut
     }
     std::vector<CellsOfParts> cells;
     list_custom_bodies(scene, partition, owner, list, cells);
+    find_places(scene);
 
     const std::vector<std::size_t> index = add(list);
     const auto find = [&](std::vector<std::size_t> &places)
@@ -150,8 +169,10 @@ namespace taut
       for (unsigned int c = 0; c < 3; ++c)
         tie_pieces(scene, i, wire_components[c], wires[i].components[c]);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (custom_bodies[i].division.body)
-        tie_parts(scene.bodies[i].name, custom_bodies[i], cells[i]);
+      if (const DivisibleBody *const body = custom_bodies[i].division.body.get())
+        body->is_distributed()
+            ? tie_distributed_parts(scene.bodies[i].name, custom_bodies[i], cells[i])
+            : tie_parts(scene.bodies[i].name, custom_bodies[i], cells[i]);
     check_places(scene);
   }
 
@@ -201,8 +222,7 @@ namespace taut
         CutConstraint constraint{to_text(WireComponent::name_of(scene, wire, motion),
                                          k == 1 ? " slope" : "", " cut at ", wires[wire].begins[p],
                                          " m"),
-                                 k == 1,
-                                 {}};
+                                 k == 1};
         for (const bool is_left : {true, false})
           if (const std::size_t body = indices[is_left ? p - 1 : p]; body != elsewhere)
           {
@@ -211,6 +231,7 @@ namespace taut
             constraint.terms.back().form.add((is_left ? piece.last_dof() : piece.first_dof()) + k,
                                              is_left ? 1. : -1.);
           }
+        constraint.number = n_cuts_of_all++;
         cuts.push_back(std::move(constraint));
       }
   }

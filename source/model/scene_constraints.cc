@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "model/scene_constraints.h"
 #include "base/text.h"
+#include "interface/schur_complement.h"
 #include "model/check_joints.h"
 #include "model/surface_constraints.h"
 #include "scene/travel.h"
@@ -393,13 +394,26 @@ namespace taut
     constraints.reserve(constraints.size() + of_surfaces.size() + bodies.cut_constraints().size());
     for (ConstraintData &constraint : of_surfaces)
       constraints.push_back(std::move(constraint));
+    CutNumbers numbers{bodies.n_cuts()};
     for (const CutConstraint &cut : bodies.cut_constraints())
     {
       ConstraintData constraint{cut.name};
       constraint.rotational = cut.rotational;
       constraint.terms = cut.terms;
       constraints.push_back(std::move(constraint));
+      numbers.here.push_back(cut.number);
     }
+    if (bodies.communicator().any(numbers.here.size() < numbers.n_of_all))
+      return Constraints(bodies, std::move(constraints), std::move(numbers));
     return Constraints(bodies, std::move(constraints));
+  }
+
+  void choose_rows(Constraints &constraints, const InterfaceParameters &parameters,
+                   const SceneBodies &bodies, const bool is_at_rest)
+  {
+    if (suits_distributed_cuts(parameters, bodies, constraints, is_at_rest))
+      constraints.distribute();
+    else
+      constraints.gather_cuts();
   }
 } // namespace taut

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "model/wires_at_rest.h"
-#include "interface/schur_complement.h"
 #include "model/scene_constraints.h"
 
 #include <algorithm>
@@ -37,8 +36,7 @@ namespace taut
                                const SolverParameters &parameters)
     {
       Constraints result = scene_constraints(scene, structure);
-      if (suits_distributed_cuts(parameters.interface, structure, result, true))
-        result.distribute();
+      choose_rows(result, parameters.interface, structure, true);
       return result;
     }
   } // namespace

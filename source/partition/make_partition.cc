@@ -27,6 +27,11 @@ namespace taut
                           dofs_per_part = 500;
     constexpr double most_solves = 3.;
 
+    std::size_t least_dofs_to_cut(const bool tuned_blas)
+    {
+      return tuned_blas ? least_with_tuned_blas : least_cut_dofs;
+    }
+
     std::size_t nearest_node(const std::vector<double> &nodes, const double s)
     {
       const auto after = std::lower_bound(nodes.begin(), nodes.end(), s);
@@ -37,17 +42,62 @@ namespace taut
       return (*after - s < s - *(after - 1) ? after : after - 1) - nodes.begin();
     }
 
+    /// Elements hold their ends together more than links do.
+    constexpr idx_t element_weight = 10, link_weight = 1;
+
+    /// A graph that METIS parts.
+    class Graph
+    {
+    public:
+      std::size_t size() const { return neighbours.size(); }
+
+      void add_vertices(const std::size_t n, const idx_t work_of_each)
+      {
+        neighbours.resize(size() + n);
+        work.resize(size(), work_of_each);
+      }
+
+      void connect(const std::size_t a, const std::size_t b, const idx_t weight)
+      {
+        if (a == b)
+          return;
+        neighbours[a][b] += weight;
+        neighbours[b][a] += weight;
+      }
+
+      double total_work() const { return std::accumulate(work.begin(), work.end(), 0.); }
+
+      /// Part of every vertex.
+      std::vector<idx_t> parts(idx_t n_parts) const;
+
+    private:
+      std::vector<std::map<idx_t, idx_t>> neighbours;
+      std::vector<idx_t> work; ///< of a vertex: its DoFs
+    };
+
+    void add_cells(const BodyCells &cells, Graph &graph)
+    {
+      const auto pairs = cell_neighbours(cells);
+      const std::size_t begin = graph.size();
+      graph.add_vertices(cells.size(), std::max<idx_t>(1, cells.n_dofs() / cells.n_cells()));
+      for (std::size_t c = 0; c < pairs.size(); ++c)
+        for (const auto &[other, n_shared] : pairs[c])
+          if (other < c)
+            graph.connect(begin + c, begin + other, element_weight * n_shared);
+    }
+
     /// The grid nodes of all wires, and the cells of all bodies that can be cut, as vertices of one
-    /// graph.
+    /// graph. Distributed bodies have graphs of their own.
     class NodeGraph
     {
     public:
       explicit NodeGraph(const Scene &scene);
 
-      std::size_t n_vertices() const { return neighbours.size(); }
-
       /// Part of every node.
-      std::vector<idx_t> parts(idx_t n_parts) const;
+      std::vector<idx_t> parts(const idx_t n_parts) const { return graph.parts(n_parts); }
+
+      /// DoFs of all vertices.
+      double work() const { return graph.total_work(); }
 
       std::vector<std::vector<double>> nodes; ///< of each wire
       std::vector<std::size_t> first;         ///< vertex of the first node of each wire
@@ -57,16 +107,11 @@ namespace taut
       std::vector<std::size_t> first_cell; ///< vertex of the first cell of each body
 
     private:
-      /// Elements hold their ends together more than links do.
-      static constexpr idx_t element_weight = 10, link_weight = 1;
-
-      void add_cells(const DivisibleBody &body);
-      void connect(std::size_t a, std::size_t b, idx_t weight);
+      void add_cells(const DivisibleBody &body) { taut::add_cells(body.cells(), graph); }
       void connect(const Link &link);
       void note(const Attachment &end);
 
-      std::vector<std::map<idx_t, idx_t>> neighbours;
-      std::vector<idx_t> work; ///< of a node: its DoFs
+      Graph graph;
     };
 
     NodeGraph::NodeGraph(const Scene &scene)
@@ -75,18 +120,17 @@ namespace taut
       {
         const Wire &wire = scene.wires[w];
         nodes.push_back(grid(scene, w));
-        first.push_back(neighbours.size());
+        first.push_back(graph.size());
         is_attachment.emplace_back(nodes[w].size(), 0);
-        neighbours.resize(neighbours.size() + nodes[w].size());
-        work.resize(neighbours.size(), wire.n_dofs_per_node());
+        graph.add_vertices(nodes[w].size(), wire.n_dofs_per_node());
         for (std::size_t i = 0; i + 1 < nodes[w].size(); ++i)
-          connect(first[w] + i, first[w] + i + 1, element_weight);
+          graph.connect(first[w] + i, first[w] + i + 1, element_weight);
       }
       for (const CustomBody &body : scene.bodies)
       {
         bodies.push_back(body.type->division({body.name, body.origin, scene.gravity}));
-        first_cell.push_back(neighbours.size());
-        if (bodies.back())
+        first_cell.push_back(graph.size());
+        if (bodies.back() && !bodies.back()->is_distributed())
           add_cells(*bodies.back());
       }
       for (const Link &link : scene.links)
@@ -111,26 +155,14 @@ namespace taut
           note(load.target);
     }
 
-    void NodeGraph::add_cells(const DivisibleBody &body)
-    {
-      const BodyCells &cells = body.cells();
-      const auto pairs = cell_neighbours(cells);
-      const std::size_t begin = neighbours.size();
-      neighbours.resize(begin + cells.size());
-      work.resize(neighbours.size(), std::max<idx_t>(1, cells.n_dofs() / cells.size()));
-      for (std::size_t c = 0; c < pairs.size(); ++c)
-        for (const auto &[other, n_shared] : pairs[c])
-          if (other < c)
-            connect(begin + c, begin + other, element_weight * n_shared);
-    }
-
     void NodeGraph::connect(const Link &link)
     {
       std::vector<std::size_t> ends;
       for (const Attachment &end : {link.from, link.to})
         if (end.kind == Attachment::Kind::wire)
           ends.push_back(first[end.index] + nearest_node(nodes[end.index], end.position));
-        else if (end.kind == Attachment::Kind::body && bodies[end.index])
+        else if (end.kind == Attachment::Kind::body && bodies[end.index] &&
+                 !bodies[end.index]->is_distributed())
           try
           {
             ends.push_back(first_cell[end.index] + bodies[end.index]->cell_at(end.place));
@@ -140,15 +172,7 @@ namespace taut
             // The error that names the link comes when the bodies are made.
           }
       if (ends.size() == 2)
-        connect(ends[0], ends[1], link_weight);
-    }
-
-    void NodeGraph::connect(const std::size_t a, const std::size_t b, const idx_t weight)
-    {
-      if (a == b)
-        return;
-      neighbours[a][b] += weight;
-      neighbours[b][a] += weight;
+        graph.connect(ends[0], ends[1], link_weight);
     }
 
     void NodeGraph::note(const Attachment &end)
@@ -157,11 +181,11 @@ namespace taut
         is_attachment[end.index][nearest_node(nodes[end.index], end.position)] = 1;
     }
 
-    std::vector<idx_t> NodeGraph::parts(idx_t n_parts) const
+    std::vector<idx_t> Graph::parts(idx_t n_parts) const
     {
       idx_t n = neighbours.size();
       std::vector<idx_t> part(n, 0);
-      if (n_parts == 1)
+      if (n_parts <= 1)
         return part;
       std::vector<idx_t> offset = {0}, adjacent, weight, vertex_weight = work;
       for (const auto &list : neighbours)
@@ -197,23 +221,62 @@ namespace taut
       return wanted;
     }
 
+    unsigned int share_of(const double n_parts, const double share)
+    {
+      return static_cast<unsigned int>(std::max(1., std::round(n_parts * share)));
+    }
+
+    /// Each rank parts its own cells of a distributed body, into its share of @p n_wanted parts,
+    /// which are numbered from @p n_parts on.
+    void part_own_cells(Partition::Division &division, const double n_wanted, unsigned int &n_parts)
+    {
+      const BodyCells &cells = division.body->cells();
+      const auto n_own = static_cast<double>(cells.size());
+      unsigned int n = std::min(static_cast<unsigned int>(cells.size()),
+                                share_of(n_wanted, n_own / static_cast<double>(cells.n_cells())));
+      Graph graph;
+      add_cells(cells, graph);
+      const std::vector<idx_t> part = graph.parts(static_cast<idx_t>(n));
+      division.part.assign(part.begin(), part.end());
+      connect_parts(cells, division.part, n);
+      // Without the numbers of empty parts, which METIS may leave.
+      std::map<unsigned int, unsigned int> number;
+      for (const unsigned int p : division.part)
+        number.emplace(p, 0);
+      n = 0;
+      for (auto &[old, anew] : number)
+        anew = n++;
+      std::vector<std::size_t> n_of_rank;
+      const Communicator processes = division.body->processes();
+      processes.gather(n, n_of_rank);
+      division.first_of_rank = {n_parts};
+      for (const std::size_t n_there : n_of_rank)
+        division.first_of_rank.push_back(n_parts += n_there);
+      for (unsigned int &p : division.part)
+        p = division.first_of_rank[processes.rank()] + number.at(p);
+    }
+
     Partition by_metis(const Scene &scene, const unsigned int n_parts)
     {
       if (n_parts == 1)
         return whole(scene);
       const NodeGraph graph(scene);
       std::size_t n_elements = 0;
+      double work = graph.work();
       for (const auto &nodes : graph.nodes)
         n_elements += nodes.size() - 1;
       for (const auto &body : graph.bodies)
-        n_elements += body ? body->cells().size() : 0;
+      {
+        n_elements += body ? body->cells().n_cells() : 0;
+        work += body && body->is_distributed() ? static_cast<double>(body->cells().n_dofs()) : 0.;
+      }
       if (n_parts > std::max<std::size_t>(1, n_elements))
         throw EntryError("Partition/Number of substructures",
                          "wires and solids have only " + std::to_string(n_elements) +
                              " elements to share; take fewer substructures or smaller elements");
-      const std::vector<idx_t> part = graph.parts(n_parts);
       Partition partition;
-      partition.n_parts = n_parts;
+      partition.n_parts = graph.work() > 0. ? share_of(n_parts, graph.work() / work) : 0;
+      const std::vector<idx_t> part = graph.parts(static_cast<idx_t>(partition.n_parts));
       for (std::size_t w = 0; w < graph.nodes.size(); ++w)
       {
         const std::size_t n = graph.nodes[w].size();
@@ -233,12 +296,17 @@ namespace taut
       for (std::size_t b = 0; b < graph.bodies.size(); ++b)
       {
         partition.bodies.push_back({graph.bodies[b], {}});
-        if (!graph.bodies[b])
+        if (!graph.bodies[b] || graph.bodies[b]->is_distributed())
           continue;
         const auto begin = part.begin() + graph.first_cell[b];
         partition.bodies[b].part.assign(begin, begin + graph.bodies[b]->cells().size());
         connect_parts(graph.bodies[b]->cells(), partition.bodies[b].part, partition.n_parts);
       }
+      for (Partition::Division &division : partition.bodies)
+        if (division.body && division.body->is_distributed())
+          part_own_cells(division,
+                         n_parts * static_cast<double>(division.body->cells().n_dofs()) / work,
+                         partition.n_parts);
       return partition;
     }
 
@@ -320,6 +388,24 @@ namespace taut
     prm.leave_subsection();
   }
 
+  void distribute_bodies(const Scene &scene, const PartitionParameters &parameters,
+                         const double n_steps, const Communicator &processes, const bool tuned_blas)
+  {
+    if (processes.size() == 1 || parameters.method != "METIS")
+      return;
+    std::size_t least = 0;
+    if (parameters.n_substructures == "automatic")
+    {
+      if (n_steps > most_solves)
+        return;
+      least = least_dofs_to_cut(tuned_blas);
+    }
+    else if (number_of_parts(parameters.n_substructures) < processes.size())
+      return;
+    for (const CustomBody &body : scene.bodies)
+      body.type->distribute({body.name, body.origin, scene.gravity}, processes, least);
+  }
+
   NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps,
                                           const bool tuned_blas)
   {
@@ -329,7 +415,7 @@ namespace taut
       reason << "more than " << most_solves << " steps use one factor of the whole";
       return {1, reason.str()};
     }
-    const std::size_t least = tuned_blas ? least_with_tuned_blas : least_cut_dofs;
+    const std::size_t least = least_dofs_to_cut(tuned_blas);
     std::size_t n_dofs = 0;
     for (const CustomBody &body : scene.bodies)
       if (const auto division = body.type->division({body.name, body.origin, scene.gravity}))

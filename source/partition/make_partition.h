@@ -20,9 +20,16 @@ namespace taut
    * - 'given': wires are cut at the listed positions, moved to the nearest node. Every piece is a
    *   part, and bodies are not cut.
    *
-   * Throws EntryError.
+   * Cells of a distributed body are parted by their ranks, into parts of their own. Called by all
+   * ranks together. Throws EntryError.
    */
   Partition make_partition(const Scene &scene, const PartitionParameters &parameters);
+
+  /// Lets the ranks of a run of @p n_steps steps share the meshes of bodies that will be cut into
+  /// at least one part for each rank. Called by all ranks together, before anything else is asked
+  /// for of the bodies. Throws EntryError on all ranks.
+  void distribute_bodies(const Scene &scene, const PartitionParameters &parameters, double n_steps,
+                         const Communicator &processes, bool tuned_blas = has_tuned_blas());
 
   /// A number of parts, and why.
   struct NumberOfParts

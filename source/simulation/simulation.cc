@@ -4,7 +4,6 @@
 #include "base/data_files.h"
 #include "base/interruption.h"
 #include "base/text.h"
-#include "interface/schur_complement.h"
 #include "model/check_joints.h"
 #include "model/contact_mass.h"
 #include "model/form_finding.h"
@@ -30,6 +29,7 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <utility>
 
 namespace taut
 {
@@ -41,8 +41,11 @@ namespace taut
     {
       if (shared)
         shared->begin();
+      Scene given = parameters.scene();
+      distribute_bodies(given, parameters.partition, parameters.end_time / parameters.step,
+                        processes);
       Scene scene =
-          find_lengths(choose_slaves(parameters.scene()), parameters.solver, processes, shared);
+          find_lengths(choose_slaves(std::move(given)), parameters.solver, processes, shared);
       if (parameters.chooses_contact_mass())
         redistribute_contact_mass(scene, parameters.solver, parameters.step);
       return scene;
@@ -62,13 +65,11 @@ namespace taut
 
   Simulation::~Simulation() = default;
 
-  /// Ranks have their own cuts where these are many.
   Constraints Simulation::make_constraints() const
   {
     Constraints result = scene_constraints(model, bodies);
-    if (suits_distributed_cuts(parameters.solver.interface, bodies, result,
-                               !has_time() && model.start == Start::equilibrium))
-      result.distribute();
+    choose_rows(result, parameters.solver.interface, bodies,
+                !has_time() && model.start == Start::equilibrium);
     return result;
   }
 

@@ -94,8 +94,8 @@ namespace taut
           << " DoFs in all";
     if (!parts_reason.empty())
       log << "\n  " << parts_reason;
-    if (!bodies.cut_constraints().empty())
-      log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
+    if (bodies.n_cuts() > 0)
+      log << "\n  cut in " << counted(bodies.n_cuts(), "constraint");
     log << '\n';
   }
 
@@ -261,6 +261,7 @@ namespace taut
     {
       const Scene without = without_sliding_contacts(model);
       Constraints fixed_constraints = scene_constraints(without, bodies);
+      choose_rows(fixed_constraints, parameters.solver.interface, bodies, true);
       if (start.n_kept > 0)
         fixed_constraints.keep_directions(start.reference.displacement, start.state.multiplier);
       try

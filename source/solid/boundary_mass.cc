@@ -71,10 +71,10 @@ namespace taut
           }
         dealii::Point<dim> middle;
         for (const unsigned int i : receiving)
-          middle += mesh.points()[i] / static_cast<double>(receiving.size());
+          middle += mesh.point(i) / static_cast<double>(receiving.size());
         double size = 0.;
         for (const unsigned int i : receiving)
-          size = std::max(size, mesh.points()[i].distance(middle));
+          size = std::max(size, mesh.point(i).distance(middle));
         if (!(size > 0.))
           size = 1.;
         value.emplace_back(layer.size(), 1.);
@@ -82,7 +82,7 @@ namespace taut
         {
           value.emplace_back(layer.size(), 0.);
           for (unsigned int i = 0; i < layer.size(); ++i)
-            value.back()[i] = (mesh.points()[i][d] - middle[d]) / size;
+            value.back()[i] = (mesh.point(i)[d] - middle[d]) / size;
         }
         for (unsigned int a = 1; a <= dim; ++a)
           for (unsigned int b = a; b <= dim; ++b)

@@ -9,18 +9,28 @@ namespace taut
                                       const Options &chosen)
       : mesh(std::move(given)), options(chosen), conditions(*mesh, options.conditions),
         division(mesh->dof_handler(), mesh->mapping(), conditions.constraints()),
-        mass_factors(ElasticSolid<dim>::mass_factors(*mesh, options, conditions)),
-        cell_of_dof(cells().n_dofs())
+        mass_factors(ElasticSolid<dim>::mass_factors(*mesh, options, conditions))
   {
-    for (std::size_t c = 0; c < cells().size(); ++c)
-      for (std::size_t e = cells().begin[c]; e < cells().begin[c + 1]; ++e)
-        cell_of_dof[cells().dofs[e]] = c;
+    const BodyCells &own = cells();
+    for (const auto &dofs : mesh->whole_surface().dofs)
+      cell_of_dof[dofs[0]] = own.size();
+    for (std::size_t c = 0; c < own.size(); ++c)
+      for (std::size_t e = own.begin[c]; e < own.begin[c + 1]; ++e)
+        if (const auto node =
+                cell_of_dof.find(own.numbers.empty() ? own.dofs[e] : own.numbers[own.dofs[e]]);
+            node != cell_of_dof.end())
+          node->second = c;
+    // Of the ranks with the node, the one that owns its DoFs.
+    const dealii::IndexSet &owned = mesh->dof_handler().locally_owned_dofs();
+    for (auto &[dof, cell] : cell_of_dof)
+      if (!owned.is_element(dof))
+        cell = own.size();
   }
 
   template <int dim>
   std::size_t DivisibleSolid<dim>::cell_at_node(const unsigned int node) const
   {
-    return cell_of_dof[mesh->whole_surface().dofs[node][0]];
+    return cell_of_dof.at(mesh->whole_surface().dofs[node][0]);
   }
 
   template <int dim>

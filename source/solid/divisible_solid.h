@@ -5,6 +5,7 @@
 #include <taut/solid/cell_division.h>
 #include <taut/solid/elastic_solid.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -17,10 +18,12 @@ namespace taut
   public:
     using Options = typename ElasticSolid<dim>::Options;
 
-    /// Throws EntryError as SolidConditions does.
+    /// Throws EntryError as SolidConditions does, and UserError for a distributed mesh with a
+    /// boundary without mass. Called by all ranks of a distributed mesh together.
     DivisibleSolid(std::shared_ptr<const SolidMesh<dim>> mesh, const Options &options);
 
     const BodyCells &cells() const override { return division.cells(); }
+    Communicator processes() const override { return division.processes(); }
     std::size_t cell_at(const Coordinates &place) const override { return division.cell_at(place); }
 
     /// A cell at a node of SolidMesh::whole_surface().
@@ -35,7 +38,7 @@ namespace taut
     const SolidConditions<dim> conditions;
     const CellDivision<dim> division;
     const std::vector<double> mass_factors;
-    std::vector<std::size_t> cell_of_dof;
+    std::map<unsigned int, std::size_t> cell_of_dof; ///< of the nodes of the boundary, along x
   };
 } // namespace taut
 

@@ -113,7 +113,7 @@ namespace taut
       factors = *part_factors;
     else if (!options.without_mass.empty())
     {
-      const auto ids = mesh.boundary_ids();
+      const auto &ids = mesh.boundary_ids();
       for (const auto id : options.without_mass)
         if (ids.count(id) == 0)
           throw UserError(mesh.no_boundary(id));
@@ -270,6 +270,8 @@ namespace taut
   {
     if (options.without_mass.empty())
       return {};
+    if (mesh.processes().size() > 1)
+      throw UserError("boundaries without mass need the mesh on one rank: do not distribute it");
     return Assembled(mesh, options, conditions.constraints(), {}, nullptr).factors;
   }
 
@@ -296,7 +298,7 @@ namespace taut
     {
       if (!this->has_dof(dof))
         continue;
-      const Coordinates x = coordinates<dim>(mesh->points()[dof]);
+      const Coordinates x = coordinates<dim>(mesh->point(dof));
       const unsigned int c = mesh->component(dof);
       if (by->varies)
         motions[dof] = [value = by->value, x, c](const double t) { return value(x, t)[c]; };

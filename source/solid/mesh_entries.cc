@@ -4,16 +4,25 @@
 
 #include "base/data_files.h"
 #include "base/text.h"
+#include "substructure/distributed_mesh.h"
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/distributed/tria.h>
+
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <boost/functional/hash.hpp>
+
+#ifdef DEAL_II_WITH_P4EST
+#include <p4est.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -120,6 +129,25 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    std::string section_of(const std::string &origin)
+    {
+      return origin.empty() ? "Mesh/" : origin + "/Mesh/";
+    }
+
+#ifdef DEAL_II_WITH_P4EST
+    /// Once it is initialised, p4est tells what it does on the standard output no more.
+    void start_p4est()
+    {
+      if (sc_package_id >= 0)
+        return;
+      sc_init(MPI_COMM_WORLD, 0, 0, nullptr, SC_LP_SILENT);
+      p4est_init(nullptr, SC_LP_SILENT);
+    }
+#endif
+  } // namespace
+
   void MeshEntries::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Mesh");
@@ -162,14 +190,13 @@ namespace taut
   }
 
   template <int dim>
-  std::unique_ptr<dealii::Triangulation<dim>> MeshEntries::make(const std::string &origin) const
+  void MeshEntries::make_coarse(dealii::Triangulation<dim> &cells, const std::string &origin) const
   {
-    const std::string section = origin.empty() ? "Mesh/" : origin + "/Mesh/";
-    auto cells = std::make_unique<dealii::Triangulation<dim>>();
+    const std::string section = section_of(origin);
     if (file.empty())
-      generate(*cells, section);
+      generate(cells, section);
     else
-      read(*cells, section);
+      read(cells, section);
     if (!shift.empty())
     {
       if (shift.size() != dim)
@@ -179,10 +206,64 @@ namespace taut
       dealii::Tensor<1, dim> by;
       for (unsigned int d = 0; d < dim; ++d)
         by[d] = shift[d];
-      dealii::GridTools::shift(by, *cells);
+      dealii::GridTools::shift(by, cells);
     }
-    curve(*cells, section);
-    refine(*cells, section);
+    curve(cells, section);
+  }
+
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>> MeshEntries::make(const std::string &origin) const
+  {
+    auto cells = std::make_unique<dealii::Triangulation<dim>>();
+    make_coarse(*cells, origin);
+    refine(*cells, section_of(origin));
+    return cells;
+  }
+
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>>
+  MeshEntries::make_distributed(const std::string &origin, const Communicator &processes,
+                                const unsigned int degree, const double least_dofs) const
+  {
+    namespace parallel = dealii::parallel;
+    dealii::Triangulation<dim> coarse;
+    make_coarse(coarse, origin);
+    // A box of cells has more nodes than cells.
+    const bool has_boxes = coarse.all_reference_cells_are_hyper_cube();
+    const double n_nodes = has_boxes ? coarse.n_active_cells() *
+                                           std::pow(std::pow(2., static_cast<double>(refinements)) *
+                                                        static_cast<double>(degree),
+                                                    dim)
+                                     : coarse.n_used_vertices();
+    if (dim * n_nodes < least_dofs)
+      return nullptr;
+    std::unique_ptr<parallel::TriangulationBase<dim>> cells;
+    if (has_boxes)
+    {
+#ifdef DEAL_II_WITH_P4EST
+      start_p4est();
+      cells = std::make_unique<parallel::distributed::Triangulation<dim>>(processes.of_mpi());
+      make_coarse(*cells, origin);
+      refine(*cells, section_of(origin));
+#else
+      return nullptr;
+#endif
+    }
+    else
+    {
+      if (coarse.n_active_cells() < processes.size())
+        return nullptr;
+      refine(coarse, section_of(origin)); // which refuses entries for other cells
+      dealii::GridTools::partition_triangulation(processes.size(), coarse);
+      auto distributed =
+          std::make_unique<parallel::fullydistributed::Triangulation<dim>>(processes.of_mpi());
+      distributed->create_triangulation(
+          dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
+              coarse, processes.of_mpi()));
+      cells = std::move(distributed);
+    }
+    if (processes.any(cells->n_locally_owned_active_cells() == 0))
+      return nullptr;
     return cells;
   }
 
@@ -301,6 +382,7 @@ namespace taut
       return;
     if (where.empty())
       throw EntryError(section + "Refine where", "Local refinements needs a formula here");
+    const Communicator processes = processes_of(cells);
     const Expression chosen(where, section + "Refine where", Expression::Variables::space);
     for (unsigned int r = 0; r < local_refinements; ++r)
     {
@@ -308,18 +390,18 @@ namespace taut
       for (const auto &cell : cells.active_cell_iterators())
       {
         const dealii::Point<dim> x = cell->center();
-        if (chosen({x[0], x[1], dim == 3 ? x[dim - 1] : 0.}, r) > 0.)
+        if (cell->is_locally_owned() && chosen({x[0], x[1], dim == 3 ? x[dim - 1] : 0.}, r) > 0.)
         {
           cell->set_refine_flag();
           any = true;
         }
       }
-      if (!any)
+      if (!processes.any(any))
         throw EntryError(section + "Refine where", "'" + where +
                                                        "' is positive at the centre of no "
                                                        "cell in refinement " +
                                                        std::to_string(r + 1));
-      check_number(cells.n_active_cells() * std::pow(2., dim), "Local refinements");
+      check_number(cells.n_global_active_cells() * std::pow(2., dim), "Local refinements");
       cells.execute_coarsening_and_refinement();
     }
   }
@@ -328,4 +410,10 @@ namespace taut
   MeshEntries::make<2>(const std::string &) const;
   template std::unique_ptr<dealii::Triangulation<3>>
   MeshEntries::make<3>(const std::string &) const;
+  template std::unique_ptr<dealii::Triangulation<2>>
+  MeshEntries::make_distributed<2>(const std::string &, const Communicator &, unsigned int,
+                                   double) const;
+  template std::unique_ptr<dealii::Triangulation<3>>
+  MeshEntries::make_distributed<3>(const std::string &, const Communicator &, unsigned int,
+                                   double) const;
 } // namespace taut

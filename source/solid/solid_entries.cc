@@ -202,7 +202,7 @@ namespace taut
   void SolidEntries::check_materials(const typename ElasticSolid<dim>::Options &options,
                                      const SolidMesh<dim> &mesh)
   {
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    for (const auto &cell : mesh.cells())
       options.material(cell->material_id());
   }
 

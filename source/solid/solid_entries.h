@@ -2,6 +2,7 @@
 #ifndef taut_solid_entries_h
 #define taut_solid_entries_h
 
+#include <taut/base/communicator.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/expression.h>
 #include <taut/solid/elastic_solid.h>
@@ -25,7 +26,18 @@ namespace taut
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>> make(const std::string &origin) const;
 
+    /// The same mesh, distributed over the ranks: by p4est if it has quadrilaterals or hexahedra,
+    /// and else by METIS. Null if a rank would get no cell, or if it has fewer than @p least_dofs
+    /// DoFs for elements of this degree, for which a number below the true one is taken. Called by
+    /// all ranks together.
+    template <int dim>
+    std::unique_ptr<dealii::Triangulation<dim>>
+    make_distributed(const std::string &origin, const Communicator &processes, unsigned int degree,
+                     double least_dofs) const;
+
   private:
+    template <int dim>
+    void make_coarse(dealii::Triangulation<dim> &cells, const std::string &origin) const;
     template <int dim>
     void generate(dealii::Triangulation<dim> &cells, const std::string &section) const;
     template <int dim>
@@ -72,6 +84,9 @@ namespace taut
     unsigned int dimension = 2, degree = 1;
     double thickness = 1., largest_turn = .5;
     MeshEntries mesh;
+
+    /// Boundaries without mass, whose neighbours take it, are found on the whole mesh.
+    bool can_be_distributed() const { return without_mass.empty(); }
 
   private:
     /// Throws UserError for cells without a material.

@@ -8,8 +8,6 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <deal.II/numerics/data_out.h>
-
 #include <cmath>
 #include <map>
 
@@ -40,38 +38,30 @@ namespace taut
   class ElasticSolid<dim>::StressField
   {
   public:
-    StressField(const ElasticSolid<dim> &solid, const std::vector<Cell> &cells,
-                const dealii::Vector<double> &U);
+    using DrawnCell = typename FEBody<dim>::DrawnCell;
 
-    /// The tensor, principal values and von Mises' stress as a field of output.
-    void add_to(dealii::DataOut<dim> &data);
+    StressField(const ElasticSolid<dim> &solid, const std::vector<DrawnCell> &cells);
 
-    const std::vector<std::string> &field_names() const { return names; }
+    /// The tensor, principal values and von Mises' stress, at these points of the cells.
+    typename FEBody<dim>::CellFields at(const std::vector<dealii::Point<dim>> &points) const;
 
   private:
     Stress stress(const dealii::Tensor<2, dim> &gradient, const ElasticMaterial &material) const;
-    void find(const dealii::Vector<double> &U);
+    void find();
     std::vector<double> components(const Stress &s) const;
 
     const ElasticSolid<dim> &solid;
-    const std::vector<Cell> &cells;
+    const std::vector<DrawnCell> &cells;
     const SolidMesh<dim> &mesh;
     const std::unique_ptr<dealii::FiniteElement<dim>> node_element;
     std::vector<unsigned int> node_of_displacement; ///< of each node, the first DoF of a cell there
     std::vector<std::vector<Stress>> stresses;      ///< of each cell and node
-    using Kind = dealii::DataComponentInterpretation::DataComponentInterpretation;
-    std::vector<std::string> names;
-    std::vector<Kind> kinds;
-    dealii::DoFHandler<dim> handler;
-    dealii::Vector<double> values;
   };
 
   template <int dim>
   ElasticSolid<dim>::StressField::StressField(const ElasticSolid<dim> &solid,
-                                              const std::vector<Cell> &cells,
-                                              const dealii::Vector<double> &U)
-      : solid(solid), cells(cells), mesh(*solid.mesh), node_element(discontinuous(mesh)),
-        handler(mesh.dof_handler().get_triangulation())
+                                              const std::vector<DrawnCell> &cells)
+      : solid(solid), cells(cells), mesh(*solid.mesh), node_element(discontinuous(mesh))
   {
     const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
     constexpr double same = 1e-10; // of the size of the unit cell
@@ -80,16 +70,7 @@ namespace taut
         if (element.system_to_component_index(i).first == 0 &&
             node.distance(element.unit_support_point(i)) < same)
           node_of_displacement.push_back(i);
-    // Without its zz component, invariants of a tensor in the plane would not be those of the
-    // stress.
-    names.assign(dim * dim, dim == 2 ? "stress_in_plane" : "stress");
-    kinds.assign(dim * dim, Kind::component_is_part_of_tensor);
-    if (dim == 2)
-      names.emplace_back("stress_zz");
-    names.insert(names.end(), {"principal_stress_1", "principal_stress_2", "principal_stress_3",
-                               "von_mises_stress"});
-    kinds.resize(names.size(), Kind::component_is_scalar);
-    find(U);
+    find();
   }
 
   template <int dim>
@@ -109,7 +90,7 @@ namespace taut
   }
 
   template <int dim>
-  void ElasticSolid<dim>::StressField::find(const dealii::Vector<double> &U)
+  void ElasticSolid<dim>::StressField::find()
   {
     const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
     const std::vector<dealii::Point<dim>> &nodes = node_element->get_unit_support_points();
@@ -129,21 +110,20 @@ namespace taut
     }
     dealii::FEValues<dim> at_points(mesh.mapping(), element, points, dealii::update_gradients);
     std::vector<dealii::Tensor<2, dim>> gradients(points.size());
-    std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
     struct Sum
     {
       Stress total;
       unsigned int n = 0;
     };
     std::map<std::pair<dealii::types::global_dof_index, dealii::types::material_id>, Sum> at_node;
-    const auto key = [&](const auto &cell, const std::size_t n)
-    { return std::make_pair(index[node_of_displacement[n]], cell->material_id()); };
-    for (const Cell &cell : cells)
+    const auto key = [&](const DrawnCell &drawn, const std::size_t n)
+    { return std::make_pair(drawn.dofs[node_of_displacement[n]], drawn.cell->material_id()); };
+    for (const DrawnCell &cell : cells)
     {
-      at_points.reinit(cell);
-      cell->get_dof_indices(index);
-      at_points[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(U, gradients);
-      const ElasticMaterial &material = solid.options.material(cell->material_id());
+      at_points.reinit(cell.cell);
+      at_points[dealii::FEValuesExtractors::Vector(0)].get_function_gradients_from_local_dof_values(
+          cell.U, gradients);
+      const ElasticMaterial &material = solid.options.material(cell.cell->material_id());
       for (std::size_t n = 0; n < nodes.size(); ++n)
       {
         Sum &sum = at_node[key(cell, n)];
@@ -153,9 +133,8 @@ namespace taut
         ++sum.n;
       }
     }
-    for (const Cell &cell : cells)
+    for (const DrawnCell &cell : cells)
     {
-      cell->get_dof_indices(index);
       stresses.emplace_back();
       for (std::size_t n = 0; n < nodes.size(); ++n)
       {
@@ -181,45 +160,51 @@ namespace taut
   }
 
   template <int dim>
-  void ElasticSolid<dim>::StressField::add_to(dealii::DataOut<dim> &data)
+  typename FEBody<dim>::CellFields
+  ElasticSolid<dim>::StressField::at(const std::vector<dealii::Point<dim>> &points) const
   {
-    const dealii::FESystem<dim> element(*node_element, names.size());
-    handler.distribute_dofs(element);
-    values.reinit(handler.n_dofs());
-    std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
-    auto of_cell = stresses.begin();
-    for (const Cell &own : cells)
+    using namespace dealii::DataComponentInterpretation;
+    typename FEBody<dim>::CellFields result;
+    // Without its zz component, invariants of a tensor in the plane would not be those of the
+    // stress.
+    result.names.assign(dim * dim, dim == 2 ? "stress_in_plane" : "stress");
+    result.kinds.assign(dim * dim, component_is_part_of_tensor);
+    if (dim == 2)
+      result.names.emplace_back("stress_zz");
+    result.names.insert(result.names.end(), {"principal_stress_1", "principal_stress_2",
+                                             "principal_stress_3", "von_mises_stress"});
+    result.kinds.resize(result.names.size(), component_is_scalar);
+    result.units.assign(result.names.size(), "Pa");
+    for (const std::vector<Stress> &of_cell : stresses)
     {
-      const Cell cell(&handler.get_triangulation(), own->level(), own->index(), &handler);
-      cell->get_dof_indices(index);
-      for (std::size_t n = 0; n < of_cell->size(); ++n)
+      dealii::FullMatrix<double> &values =
+          result.values.emplace_back(result.names.size(), points.size());
+      for (std::size_t n = 0; n < of_cell.size(); ++n)
       {
-        const std::vector<double> found = components((*of_cell)[n]);
-        for (std::size_t c = 0; c < found.size(); ++c)
-          values[index[element.component_to_system_index(c, n)]] = found[c];
+        const std::vector<double> found = components(of_cell[n]);
+        for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const double weight = node_element->shape_value(n, points[q]);
+          for (std::size_t c = 0; weight != 0. && c < found.size(); ++c)
+            values(c, q) += weight * found[c];
+        }
       }
-      ++of_cell;
     }
-    data.add_data_vector(handler, values, names, kinds);
+    return result;
   }
 
   template <int dim>
-  std::shared_ptr<const void>
-  ElasticSolid<dim>::add_fields(const dealii::Vector<double> &all, const std::vector<Cell> &cells,
-                                dealii::DataOut<dim, dim> &data,
-                                std::map<std::string, std::string> &units) const
+  typename FEBody<dim>::CellFields
+  ElasticSolid<dim>::fields(const std::vector<DrawnCell> &cells,
+                            const std::vector<dealii::Point<dim>> &points) const
   {
-    const auto stress = std::make_shared<StressField>(*this, cells, all);
-    stress->add_to(data);
-    for (const std::string &name : stress->field_names())
-      units[name] = "Pa";
-    return stress;
+    return StressField(*this, cells).at(points);
   }
 
-  template std::shared_ptr<const void>
-  ElasticSolid<2>::add_fields(const dealii::Vector<double> &, const std::vector<Cell> &,
-                              dealii::DataOut<2> &, std::map<std::string, std::string> &) const;
-  template std::shared_ptr<const void>
-  ElasticSolid<3>::add_fields(const dealii::Vector<double> &, const std::vector<Cell> &,
-                              dealii::DataOut<3> &, std::map<std::string, std::string> &) const;
+  template FEBody<2>::CellFields
+  ElasticSolid<2>::fields(const std::vector<FEBody<2>::DrawnCell> &,
+                          const std::vector<dealii::Point<2>> &) const;
+  template FEBody<3>::CellFields
+  ElasticSolid<3>::fields(const std::vector<FEBody<3>::DrawnCell> &,
+                          const std::vector<dealii::Point<3>> &) const;
 } // namespace taut

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "substructure/distributed_mesh.h"
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/solid/solid_mesh.h>
 
@@ -13,10 +15,12 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 
+#include <deal.II/grid/cell_id.h>
+
 #include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
-#include <map>
+#include <tuple>
 
 namespace taut
 {
@@ -25,7 +29,7 @@ namespace taut
     template <int dim>
     bool has_simplices(const dealii::Triangulation<dim> &cells)
     {
-      if (cells.n_active_cells() == 0)
+      if (cells.n_global_active_cells() == 0)
         throw UserError("the mesh has no cells");
       if (!cells.all_reference_cells_are_hyper_cube() && !cells.all_reference_cells_are_simplex())
         throw UserError("the mesh mixes shapes of cells: use quadrilaterals or hexahedra only, or "
@@ -57,23 +61,41 @@ namespace taut
   template <int dim>
   SolidMesh<dim>::SolidMesh(std::unique_ptr<dealii::Triangulation<dim>> given,
                             const unsigned int degree)
-      : triangulation(std::move(given)), simplicial(has_simplices(*triangulation)),
+      : triangulation(std::move(given)), ranks(processes_of(*triangulation)),
+        simplicial(has_simplices(*triangulation)),
         cell_mapping(make_mapping<dim>(simplicial, degree)),
         element(make_element<dim>(simplicial, degree)), handler(*triangulation)
   {
     handler.distribute_dofs(element);
-    support_points.resize(handler.n_dofs());
-    dealii::DoFTools::map_dofs_to_support_points(*cell_mapping, handler, support_points);
-    components.resize(handler.n_dofs());
+    own_cells = own_cells_of(handler);
+    find_points();
+    find_boundary();
+  }
+
+  template <int dim>
+  void SolidMesh<dim>::find_points()
+  {
+    if (ranks.size() > 1)
+      dealii::DoFTools::extract_locally_relevant_dofs(handler, relevant);
+    support_points.resize(ranks.size() > 1 ? relevant.n_elements() : handler.n_dofs());
+    components.resize(support_points.size());
+    dealii::FEValues<dim> values(*cell_mapping, element,
+                                 dealii::Quadrature<dim>(element.get_unit_support_points()),
+                                 dealii::update_quadrature_points);
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
     for (const auto &cell : handler.active_cell_iterators())
     {
-      active_cells.push_back(cell);
+      if (cell->is_artificial())
+        continue;
+      values.reinit(cell);
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        components[dofs[i]] = element.system_to_component_index(i).first;
+      {
+        const std::size_t at = index(dofs[i]);
+        components[at] = element.system_to_component_index(i).first;
+        support_points[at] = values.quadrature_point(i);
+      }
     }
-    boundary = surface({});
   }
 
   template <int dim>
@@ -93,13 +115,6 @@ namespace taut
   }
 
   template <int dim>
-  std::set<dealii::types::boundary_id> SolidMesh<dim>::boundary_ids() const
-  {
-    const std::vector<dealii::types::boundary_id> ids = triangulation->get_boundary_ids();
-    return {ids.begin(), ids.end()};
-  }
-
-  template <int dim>
   std::string SolidMesh<dim>::no_boundary(const dealii::types::boundary_id id) const
   {
     std::string text = "the mesh has no boundary " + std::to_string(id) + "; it has";
@@ -109,16 +124,41 @@ namespace taut
   }
 
   template <int dim>
-  typename SolidMesh<dim>::Surface
-  SolidMesh<dim>::surface(const std::set<dealii::types::boundary_id> &boundaries) const
+  double SolidMesh<dim>::size() const
   {
-    const std::set<dealii::types::boundary_id> ids = boundary_ids();
-    for (const auto id : boundaries)
-      if (ids.count(id) == 0)
-        throw UserError(no_boundary(id));
-    Surface result;
-    result.surface.dim = dim;
-    result.surface.degree = degree();
+    Coordinates lower = boundary.surface.points.front(), upper = lower;
+    for (const Coordinates &x : boundary.surface.points)
+    {
+      lower = {std::min(lower.x, x.x), std::min(lower.y, x.y), std::min(lower.z, x.z)};
+      upper = {std::max(upper.x, x.x), std::max(upper.y, x.y), std::max(upper.z, x.z)};
+    }
+    return norm(upper - lower);
+  }
+
+  template <int dim>
+  struct SolidMesh<dim>::Face
+  {
+    unsigned int level = 0, number = 0, id = 0; ///< of the cell; on the cell; of the boundary
+    std::string cell;                           ///< its CellId
+    std::vector<unsigned int> dofs;             ///< of the nodes, in the order of ContactSurface
+    std::vector<Coordinates> points;
+    Coordinates outward;
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &level &number &id &cell &dofs;
+      points.resize(dofs.size() / dim);
+      for (Coordinates &x : points)
+        archive &x.x &x.y &x.z;
+      archive &outward.x &outward.y &outward.z;
+    }
+  };
+
+  /// The faces of the boundary on the cells of this rank.
+  template <int dim>
+  std::vector<typename SolidMesh<dim>::Face> SolidMesh<dim>::own_faces() const
+  {
     const unsigned int n_per_face = element.n_dofs_per_face(0) / dim;
     // Nodes of an edge: its ends, then its middle; of a quadrilateral in lexicographic order; of a
     // triangle its corners, then the middles of its edges.
@@ -127,48 +167,128 @@ namespace taut
       order[i] = i;
     if (dim == 3 && !simplicial)
       order = dealii::FETools::hierarchic_to_lexicographic_numbering<dim - 1>(degree());
-    std::map<dealii::types::global_dof_index, unsigned int> node_of; // by the DoF along x
     dealii::FEFaceValues<dim> values(*cell_mapping, element, face_quadrature(1),
                                      dealii::update_normal_vectors);
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
-    for (const auto &cell : handler.active_cell_iterators())
+    std::vector<Face> result;
+    for (const Cell &cell : own_cells)
       for (const unsigned int f : cell->face_indices())
       {
         if (!cell->face(f)->at_boundary())
           continue;
         cell->face(f)->get_dof_indices(dofs);
-        std::vector<std::array<dealii::types::global_dof_index, dim>> nodes(n_per_face);
+        Face face;
+        face.number = f;
+        face.id = cell->face(f)->boundary_id();
+        face.dofs.resize(dofs.size());
+        face.points.resize(n_per_face);
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
-          const auto [c, index] = element.face_system_to_component_index(i, f);
-          nodes[index][c] = dofs[i];
+          const auto [c, node] = element.face_system_to_component_index(i, f);
+          face.dofs[dim * order[node] + c] = dofs[i];
+          face.points[order[node]] = coordinates<dim>(point(dofs[i]));
         }
-        std::vector<unsigned int> face(n_per_face);
-        for (unsigned int i = 0; i < n_per_face; ++i)
-        {
-          const auto [known, is_new] =
-              node_of.insert({nodes[i][0], static_cast<unsigned int>(result.dofs.size())});
-          if (is_new)
-          {
-            result.dofs.push_back(nodes[i]);
-            result.surface.points.push_back(coordinates<dim>(support_points[nodes[i][0]]));
-          }
-          face[order[i]] = known->second;
-        }
-        if (!boundaries.empty() && boundaries.count(cell->face(f)->boundary_id()) == 0)
-          continue;
-        result.surface.faces.push_back(std::move(face));
         values.reinit(cell, f);
-        result.surface.outward.push_back(coordinates<dim>(values.normal_vector(0)));
+        face.outward = coordinates<dim>(values.normal_vector(0));
+        if (ranks.size() > 1)
+        {
+          face.level = cell->level();
+          face.cell = cell->id().to_string();
+        }
+        result.push_back(std::move(face));
       }
-    dealii::AffineConstraints<double> constraints;
-    dealii::DoFTools::make_hanging_node_constraints(handler, constraints);
-    for (const auto &[dof, node] : node_of)
-      if (const auto *entries = constraints.get_constraint_entries(dof); entries != nullptr)
+    return result;
+  }
+
+  /// The faces of all ranks, in the order of a mesh that is not distributed: level by level, and
+  /// there by coarse cells and their children.
+  template <int dim>
+  void SolidMesh<dim>::share(std::vector<Face> &faces,
+                             std::map<unsigned int, Parents> &hanging) const
+  {
+    const std::vector<std::string> all =
+        ranks.gather(archived([&](OutputArchive &archive) { archive << faces << hanging; }));
+    std::vector<std::pair<dealii::CellId, Face>> ordered;
+    for (const std::string &text : all)
+    {
+      std::map<unsigned int, Parents> of_rank;
+      unarchive(text, [&](InputArchive &archive) { archive >> faces >> of_rank; });
+      hanging.insert(of_rank.begin(), of_rank.end());
+      for (Face &face : faces)
+        ordered.emplace_back(dealii::CellId(face.cell), std::move(face));
+    }
+    std::sort(ordered.begin(), ordered.end(),
+              [](const auto &a, const auto &b)
+              {
+                return std::tie(a.second.level, a.first, a.second.number) <
+                       std::tie(b.second.level, b.first, b.second.number);
+              });
+    faces.clear();
+    for (auto &[cell, face] : ordered)
+      faces.push_back(std::move(face));
+  }
+
+  template <int dim>
+  void SolidMesh<dim>::find_boundary()
+  {
+    std::vector<Face> faces = own_faces();
+    const dealii::AffineConstraints<double> constraints = hanging_nodes(handler);
+    std::map<unsigned int, Parents> hanging; // by the DoF along x
+    for (const Face &face : faces)
+      for (std::size_t i = 0; i < face.dofs.size(); i += dim)
+        if (const auto *entries = constraints.get_constraint_entries(face.dofs[i]))
+          hanging[face.dofs[i]].assign(entries->begin(), entries->end());
+    if (ranks.size() > 1)
+      share(faces, hanging);
+
+    boundary.surface.dim = dim;
+    boundary.surface.degree = degree();
+    std::map<unsigned int, unsigned int> node_of; // by the DoF along x
+    for (const Face &face : faces)
+    {
+      boundary.surface.faces.emplace_back();
+      for (std::size_t i = 0; i < face.points.size(); ++i)
       {
-        result.surface.hanging.push_back({node, {}});
-        for (const auto &[parent, weight] : *entries)
-          result.surface.hanging.back().parents.emplace_back(node_of.at(parent), weight);
+        const auto dofs = face.dofs.begin() + static_cast<std::ptrdiff_t>(dim * i);
+        const auto [known, is_new] =
+            node_of.insert({*dofs, static_cast<unsigned int>(boundary.dofs.size())});
+        if (is_new)
+        {
+          boundary.dofs.emplace_back();
+          std::copy(dofs, dofs + dim, boundary.dofs.back().begin());
+          boundary.surface.points.push_back(face.points[i]);
+        }
+        boundary.surface.faces.back().push_back(known->second);
+      }
+      boundary.surface.outward.push_back(face.outward);
+      id_of_face.push_back(face.id);
+      ids_of_boundary.insert(face.id);
+    }
+    for (const auto &[dof, parents] : hanging)
+    {
+      boundary.surface.hanging.push_back({node_of.at(dof), {}});
+      for (const auto &[parent, weight] : parents)
+        boundary.surface.hanging.back().parents.emplace_back(node_of.at(parent), weight);
+    }
+  }
+
+  template <int dim>
+  typename SolidMesh<dim>::Surface
+  SolidMesh<dim>::surface(const std::set<dealii::types::boundary_id> &boundaries) const
+  {
+    for (const auto id : boundaries)
+      if (ids_of_boundary.count(id) == 0)
+        throw UserError(no_boundary(id));
+    Surface result = boundary;
+    if (boundaries.empty())
+      return result;
+    result.surface.faces.clear();
+    result.surface.outward.clear();
+    for (std::size_t f = 0; f < id_of_face.size(); ++f)
+      if (boundaries.count(id_of_face[f]) != 0)
+      {
+        result.surface.faces.push_back(boundary.surface.faces[f]);
+        result.surface.outward.push_back(boundary.surface.outward[f]);
       }
     return result;
   }

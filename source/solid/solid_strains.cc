@@ -68,7 +68,7 @@ namespace taut
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
       const auto [c, node] = mesh.dof_handler().get_fe().system_to_component_index(i);
-      places[node][c] = mesh.points()[dofs[i]][c];
+      places[node][c] = mesh.point(dofs[i])[c];
       displacements[node][c] = solid.value_of_dof(dofs[i], U);
     }
   }

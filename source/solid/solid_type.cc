@@ -8,6 +8,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <utility>
+
 namespace taut
 {
   namespace
@@ -27,10 +29,28 @@ namespace taut
     class SolidIn : public SolidOf
     {
     public:
-      SolidIn(const SolidEntries &entries, const std::string &origin)
-          : entries(entries), mesh(std::make_shared<SolidMesh<dim>>(
-                                  entries.mesh.template make<dim>(origin), entries.degree))
+      SolidIn(const SolidEntries &entries,
+              std::unique_ptr<dealii::Triangulation<dim>> triangulation)
+          : entries(entries),
+            mesh(std::make_shared<SolidMesh<dim>>(std::move(triangulation), entries.degree))
       {
+      }
+
+      /// With the whole mesh on this rank.
+      static std::unique_ptr<SolidOf> whole(const SolidEntries &entries, const std::string &origin)
+      {
+        return std::make_unique<SolidIn>(entries, entries.mesh.template make<dim>(origin));
+      }
+
+      /// With a mesh of so many DoFs, or more, distributed over the ranks; null: it is not.
+      static std::unique_ptr<SolidOf> distributed(const SolidEntries &entries,
+                                                  const std::string &origin,
+                                                  const Communicator &processes,
+                                                  const double least_dofs)
+      {
+        auto cells = entries.mesh.template make_distributed<dim>(origin, processes, entries.degree,
+                                                                 least_dofs);
+        return cells ? std::make_unique<SolidIn>(entries, std::move(cells)) : nullptr;
       }
 
       std::size_t n_dofs() const override { return mesh->dof_handler().n_dofs(); }
@@ -50,8 +70,9 @@ namespace taut
 
       std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
       {
-        return std::make_shared<DivisibleSolid<dim>>(mesh,
-                                                     entries.template options<dim>(setting, *mesh));
+        typename ElasticSolid<dim>::Options options;
+        mesh->processes().agree([&] { options = entries.template options<dim>(setting, *mesh); });
+        return std::make_shared<DivisibleSolid<dim>>(mesh, options);
       }
 
     private:
@@ -78,7 +99,29 @@ namespace taut
 
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override
       {
-        return about_entry(setting.origin, [&] { return solid(setting.origin).make(setting); });
+        return about_entry(setting.origin,
+                           [&] { return whole_solid(setting.origin).make(setting); });
+      }
+
+      void distribute(const BodySetting &setting, const Communicator &processes,
+                      const std::size_t least_dofs) const override
+      {
+        if (!entries.can_be_distributed() || (entries.dimension == 2 && least_dofs > 0))
+          return;
+        const std::string &origin = setting.origin;
+        const auto n = static_cast<double>(least_dofs);
+        if (auto solid =
+                about_entry(origin,
+                            [&]
+                            {
+                              return entries.dimension == 2
+                                         ? SolidIn<2>::distributed(entries, origin, processes, n)
+                                         : SolidIn<3>::distributed(entries, origin, processes, n);
+                            }))
+        {
+          made = std::move(solid);
+          is_distributed = true;
+        }
       }
 
       double largest_turn() const override { return entries.largest_turn; }
@@ -96,17 +139,25 @@ namespace taut
 
     private:
       /// Made at its first use, as the mesh takes time.
-      const SolidOf &solid(const std::string &origin) const
+      const SolidOf &solid(const std::string &origin) const { return first_use(made, origin); }
+
+      /// The solid for one rank alone, which the lengths of droppers may need.
+      const SolidOf &whole_solid(const std::string &origin) const
       {
-        if (!made && entries.dimension == 2)
-          made = std::make_unique<SolidIn<2>>(entries, origin);
-        else if (!made)
-          made = std::make_unique<SolidIn<3>>(entries, origin);
-        return *made;
+        return is_distributed ? first_use(on_one_rank, origin) : solid(origin);
+      }
+
+      const SolidOf &first_use(std::unique_ptr<SolidOf> &solid, const std::string &origin) const
+      {
+        if (!solid)
+          solid = entries.dimension == 2 ? SolidIn<2>::whole(entries, origin)
+                                         : SolidIn<3>::whole(entries, origin);
+        return *solid;
       }
 
       SolidEntries entries;
-      mutable std::unique_ptr<SolidOf> made;
+      mutable std::unique_ptr<SolidOf> made, on_one_rank;
+      mutable bool is_distributed = false;
     };
 
     const Register<BodyType, SolidType> solid("solid",

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "base/memory.h"
 #include "base/text.h"
-#include "base/write_file.h"
+#include "substructure/distributed_mesh.h"
 #include <taut/base/exceptions.h>
 #include <taut/substructure/fe_body.h>
-
-#include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/mapping_q1.h>
 
-#include <deal.II/grid/grid_tools.h>
-
-#include <deal.II/numerics/data_out.h>
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -30,9 +22,7 @@ namespace taut
     {
       if (moved.empty() || !body.dof_handler().get_triangulation().has_hanging_nodes())
         return;
-      dealii::AffineConstraints<double> whole;
-      dealii::DoFTools::make_hanging_node_constraints(body.dof_handler(), whole);
-      whole.close();
+      const dealii::AffineConstraints<double> whole = hanging_nodes(body.dof_handler());
       for (const auto &line : whole.get_lines())
       {
         if (!body.has_dof(line.index) || moved.count(line.index) != 0)
@@ -96,15 +86,10 @@ namespace taut
         mapping(options.mapping ? *options.mapping : dealii::StaticMappingQ1<dim>::mapping),
         scalar_direction(options.direction)
   {
-    if (options.cells.empty())
-      for (const auto &cell : handler.active_cell_iterators())
-        own_cells.push_back(cell);
-    else
-    {
-      own_cells = options.cells;
-      std::sort(own_cells.begin(), own_cells.end());
+    own_cells = options.cells.empty() ? own_cells_of(handler) : options.cells;
+    std::sort(own_cells.begin(), own_cells.end());
+    if (!options.cells.empty() || processes_of(handler.get_triangulation()).size() > 1)
       own_dofs = part_dofs(own_cells, constraints);
-    }
     const unsigned int n = own_dofs.empty() ? handler.n_dofs() : own_dofs.size();
     forms.resize(n);
     check_matrix(mass, "mass matrix");
@@ -343,20 +328,9 @@ namespace taut
     dealii::Point<dim> point;
     for (unsigned int d = 0; d < dim; ++d)
       point[d] = place[d];
-    typename dealii::DoFHandler<dim>::active_cell_iterator cell = handler.end();
-    dealii::Point<dim> unit;
-    try
-    {
-      std::tie(cell, unit) =
-          dealii::GridTools::find_active_cell_around_point(mapping, handler, point);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-    }
+    const auto [cell, unit] = cell_around(handler, mapping, point);
     if (cell == handler.end() || !has_cell(cell))
-    {
       throw UserError(to_text("body '", name(), "': the point ", point, " is not on it"));
-    }
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
     cell->get_dof_indices(dofs);
     double along = 0.;
@@ -387,90 +361,9 @@ namespace taut
   dealii::Vector<double> FEBody<dim>::all_dofs(const std::vector<double> &U) const
   {
     dealii::Vector<double> result(handler.n_dofs());
-    set_all_dofs(U, result);
-    return result;
-  }
-
-  template <int dim>
-  void FEBody<dim>::set_all_dofs(const std::vector<double> &U, dealii::Vector<double> &all) const
-  {
     for (std::size_t i = 0; i < U.size(); ++i)
-      all[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
-  }
-
-  /// Restricts the output to these cells, in ascending order.
-  template <int dim>
-  void FEBody<dim>::show_cells(const std::vector<Cell> &cells,
-                               dealii::DataOut<dim, dim> &data) const
-  {
-    using TriaCell = typename dealii::Triangulation<dim>::cell_iterator;
-    const auto at = [&cells](const typename std::vector<Cell>::const_iterator &shown,
-                             const dealii::Triangulation<dim> &mesh)
-    {
-      return shown == cells.end() ? TriaCell(mesh.end())
-                                  : TriaCell(&mesh, (*shown)->level(), (*shown)->index());
-    };
-    data.set_cell_selection(
-        [&cells, at](const dealii::Triangulation<dim> &mesh) { return at(cells.begin(), mesh); },
-        [&cells, at, this](const dealii::Triangulation<dim> &mesh, const TriaCell &cell)
-        {
-          const Cell shown(&mesh, cell->level(), cell->index(), &handler);
-          return at(std::upper_bound(cells.begin(), cells.end(), shown), mesh);
-        });
-  }
-
-  template <int dim>
-  void FEBody<dim>::write_vtu(const std::string &path, const std::vector<double> &U) const
-  {
-    write_vtu(Files{path}, {{this, &U}});
-  }
-
-  template <int dim>
-  bool FEBody<dim>::is_drawn_with(const PartOfBody &other) const
-  {
-    const auto *const body = dynamic_cast<const FEBody *>(&other);
-    return body && &body->handler == &handler;
-  }
-
-  template <int dim>
-  void FEBody<dim>::write_vtu(const Files &files, const std::vector<Drawn> &parts) const
-  {
-    dealii::Vector<double> all(handler.n_dofs());
-    std::vector<Cell> cells;
-    for (const Drawn &drawn : parts)
-    {
-      const auto &part = static_cast<const FEBody &>(*drawn.part);
-      part.set_all_dofs(*drawn.U, all);
-      cells.insert(cells.end(), part.own_cells.begin(), part.own_cells.end());
-    }
-    std::sort(cells.begin(), cells.end());
-
-    using namespace dealii::DataComponentInterpretation;
-    const unsigned int n = handler.get_fe().n_components();
-    std::shared_ptr<const void> fields; // lives longer than the output
-    dealii::DataOut<dim> data;
-    data.add_data_vector(
-        handler, all, std::vector<std::string>(n, "displacement"),
-        std::vector<DataComponentInterpretation>(
-            n, n == dim && dim > 1 ? component_is_part_of_vector : component_is_scalar));
-    dealii::DataOutBase::VtkFlags flags;
-    flags.print_date_and_time = false; // the same bytes from run to run
-    flags.physical_units["displacement"] = "m";
-    fields = add_fields(all, cells, data, flags.physical_units);
-    show_cells(cells, data);
-    data.build_patches(mapping, handler.get_fe().degree);
-    data.set_flags(flags);
-    std::ostringstream file, joined;
-    data.write_vtu(file);
-    write_file(files.own, whole_text(file));
-    if (files.joined.empty())
-      return;
-    data.write_pvtu_record(joined, files.pieces);
-    std::string text = whole_text(joined);
-    const std::size_t begin = text.find("<!--"), end = text.find("-->"); // around the date
-    if (begin < end && end != std::string::npos)
-      text.erase(begin, end + 4 - begin);
-    write_file(files.joined, text);
+      result[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
+    return result;
   }
 
   template class FEBody<1>;

@@ -114,7 +114,8 @@ namespace taut
     // Hanging nodes of a part depend on nodes of cells beside it.
     if (n_known < forms.size())
       for (const auto &cell : handler.active_cell_iterators())
-        note(cell);
+        if (!cell->is_artificial())
+          note(cell);
     for (unsigned int c = 0; c < n_components; ++c)
       modes.emplace_back(forms.size(), 0.);
     for (unsigned int i = 0; i < forms.size(); ++i)

@@ -77,7 +77,7 @@ namespace
     double error = 0.;
     for (unsigned int i = 0; i < U.size(); ++i)
     {
-      const auto &x = mesh->points()[i];
+      const auto &x = mesh->point(i);
       const Coordinates u = exact({x[0], x[1], dim == 3 ? x[dim - 1] : 0.}, 0.);
       error = std::fmax(error, std::fabs(U[i] - u[mesh->component(i)]));
     }
@@ -97,7 +97,7 @@ namespace
     double tip = 0.;
     unsigned int n_tip = 0;
     for (unsigned int i = 0; i < U.size(); ++i)
-      if (mesh->component(i) == 1 && std::fabs(mesh->points()[i][0] - length) < 1e-9)
+      if (mesh->component(i) == 1 && std::fabs(mesh->point(i)[0] - length) < 1e-9)
       {
         tip -= U[i];
         ++n_tip;
@@ -224,7 +224,7 @@ TEST(ElasticSolids, plates_have_the_thickness_that_is_given)
   std::vector<double> u(solid.n_dofs(), 0.);
   for (unsigned int i = 0; i < u.size(); ++i)
     if (mesh->component(i) == 0)
-      u[i] = 1e-3 * mesh->points()[i][0];
+      u[i] = 1e-3 * mesh->point(i)[0];
   EXPECT_NEAR(m, 500. * volume, 1e-9);
   EXPECT_NEAR(force, -9.81 * 500. * volume + thickness * (-100. * 1.5 * 3. + 70. * 2.), 1e-9);
   EXPECT_NEAR(product(solid.stiffness(), u), 1e9 * .7 / (1.3 * .4) * 1e-6 * volume, 1e-9);

@@ -194,7 +194,7 @@ TEST(Impacts, mass_that_leaves_a_boundary_keeps_total_centre_and_inertia)
           for (unsigned int i = 0; i < a.size(); ++i)
             if (mesh->component(i) == 0 && kept[i])
             {
-              const double x[3] = {1., mesh->points()[i][0], mesh->points()[i][1]};
+              const double x[3] = {1., mesh->point(i)[0], mesh->point(i)[1]};
               a[i] = x[p];
               b[i] = x[q];
             }
@@ -208,7 +208,7 @@ TEST(Impacts, mass_that_leaves_a_boundary_keeps_total_centre_and_inertia)
         const std::vector<unsigned int> massless = without.dofs_without_mass();
         unsigned int n_on_boundary = 0;
         for (unsigned int i = 0; i < without.n_dofs(); ++i)
-          if (mesh->points()[i][1] == 2.)
+          if (mesh->point(i)[1] == 2.)
           {
             ++n_on_boundary;
             EXPECT_TRUE(std::binary_search(massless.begin(), massless.end(), i));

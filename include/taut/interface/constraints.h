@@ -101,6 +101,13 @@ namespace taut
                                   const Coordinates &direction, double stiffness,
                                   const Coordinates &motion);
 
+  /// Which cuts a rank has, where not all ranks have all of them.
+  struct CutNumbers
+  {
+    std::size_t n_of_all = 0;           ///< cuts of all ranks
+    std::vector<std::size_t> here = {}; ///< numbers of those of this rank, ascending
+  };
+
   /**
    * The constraints of a system, with rows in the order cuts, other fixed ones, turning, sliding.
    * All ranks have all of them, unless they are distributed: each rank then has the cuts that act
@@ -113,9 +120,17 @@ namespace taut
     /// see check_constraint(). Called by all ranks together.
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints);
 
+    /// Rows that are distributed from the start: the cuts among @p constraints, in their order, are
+    /// those with @p numbers. Called by all ranks together.
+    Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints,
+                CutNumbers numbers);
+
     /// Each rank drops the cuts that do not act on its bodies. Only without turning constraints,
     /// and for a matrix-free F. Called by all ranks together.
     void distribute();
+
+    /// All ranks get all cuts, if they were distributed. Called by all ranks together.
+    void gather_cuts();
 
     /// The distributed rows; null: all ranks have all of them.
     const SharedRows *shared() const { return shared_rows.get(); }
@@ -292,6 +307,9 @@ namespace taut
       unsigned int body, dof;
     };
 
+    void check(const Rows &rows) const;
+    void share_cuts(CutNumbers numbers);
+    void replace_cuts(std::vector<ConstraintData> cuts);
     void sort();
     void arrange();
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;

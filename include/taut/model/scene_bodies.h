@@ -7,7 +7,10 @@
 #include <taut/substructure/structure.h>
 
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace taut
@@ -18,7 +21,8 @@ namespace taut
   {
     std::string name;
     bool rotational = false;
-    std::vector<Term> terms;
+    std::size_t number = 0; ///< among the cuts of all ranks
+    std::vector<Term> terms = {};
   };
 
   struct SharedParts;
@@ -68,12 +72,16 @@ namespace taut
     void motion(std::size_t wire, double s, WireMotion motion, std::vector<Term> &terms) const;
 
     /**
-     * The constraints of all cuts. A cut of a wire has one constraint for each continuous motion:
-     * displacement, and slope of a beam. A DoF of a body on a cut has a chain of constraints from
-     * part to part, one fewer than parts. So the constraints are independent where several cuts
-     * meet.
+     * The constraints of the cuts, by their numbers: of all but those of distributed bodies that do
+     * not act on bodies of this rank. A cut of a wire has one constraint for each continuous
+     * motion: displacement, and slope of a beam. A DoF of a body on a cut has a chain of
+     * constraints from part to part, one fewer than parts. So the constraints are independent where
+     * several cuts meet.
      */
     const std::vector<CutConstraint> &cut_constraints() const { return cuts; }
+
+    /// Number of cuts of all ranks.
+    std::size_t n_cuts() const { return n_cuts_of_all; }
 
     /// The indices on this rank of the parts of a custom body of the scene, one index if the body
     /// is not cut; Structure::elsewhere for parts on other ranks.
@@ -83,7 +91,7 @@ namespace taut
     }
 
     /// The index of the part with a place on the body; throws UserError if the place is not on the
-    /// body.
+    /// body. On a distributed body it is a place that the scene names.
     std::size_t index_at(std::size_t body, const Coordinates &place) const;
 
     /// The index of the part with a node of the surface of the body (BodyType::surface()).
@@ -118,6 +126,12 @@ namespace taut
       Partition::Division division;   ///< with the position in `index` of the part of each cell
     };
 
+    /// A part with a DoF, and the position of the DoF in the part, if it is here.
+    struct PartWithDof
+    {
+      unsigned int part, own_dof;
+    };
+
     /// Cells of the parts of a body.
     using CellsOfParts = std::vector<std::vector<unsigned int>>;
 
@@ -126,7 +140,12 @@ namespace taut
     void list_custom_bodies(const Scene &scene, const Partition &partition,
                             const std::vector<unsigned int> &owner, std::vector<NewBody> &list,
                             std::vector<CellsOfParts> &cells);
+    void find_places(const Scene &scene);
     void tie_parts(const std::string &name, const BodyParts &body, const CellsOfParts &cells);
+    void tie_distributed_parts(const std::string &name, const BodyParts &body,
+                               const CellsOfParts &cells);
+    void add_cut(const std::string &name, const BodyParts &body, unsigned int dof,
+                 const std::array<PartWithDof, 2> &sides);
     std::size_t part_at(std::size_t body, const Coordinates &place) const;
     void add_loads(const Scene &scene, std::size_t body, std::size_t part,
                    Substructure &made) const;
@@ -146,7 +165,12 @@ namespace taut
     std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass;
     std::vector<BodyParts> custom_bodies;
+
+    /// Parts at the places of the scene on distributed bodies; none: the place is on no cell.
+    std::map<std::tuple<std::size_t, double, double, double>, std::optional<std::size_t>>
+        part_of_place;
     std::vector<CutConstraint> cuts;
+    std::size_t n_cuts_of_all = 0;
   };
 } // namespace taut
 

@@ -2,6 +2,7 @@
 #ifndef taut_body_type_h
 #define taut_body_type_h
 
+#include <taut/base/communicator.h>
 #include <taut/base/coordinates.h>
 #include <taut/base/registry.h>
 
@@ -43,6 +44,18 @@ namespace taut
     /// Declares the entries of the type, in the section of the body.
     virtual void declare_parameters(dealii::ParameterHandler &) {}
 
+    /**
+     * Called by all ranks of a run together, before anything else is asked for, if the ranks may
+     * share the mesh of the body: division() then has the cells of this rank, see
+     * DivisibleBody::processes(). Of more than 0 @p least_dofs only a body in space with as many
+     * DoFs is shared. A type without a mesh does nothing, and every rank then has the whole body.
+     * Throws EntryError on all ranks.
+     */
+    virtual void distribute(const BodySetting &, const Communicator &,
+                            std::size_t /*least_dofs*/) const
+    {
+    }
+
     /// Estimated number of DoFs, by which ranks share the work; 0: not known before the body is
     /// made.
     virtual std::size_t n_dofs() const { return 0; }
@@ -67,8 +80,8 @@ namespace taut
     /// for small rotations; 0: rotations of the surface are not watched.
     virtual double largest_turn() const { return 0.; }
 
-    /// How the partition can cut the body; none: the body is not cut. Called on all ranks, with the
-    /// same result. Throws EntryError.
+    /// How the partition can cut the body; none: the body is not cut. Called by all ranks together.
+    /// Throws EntryError.
     virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &) const
     {
       return nullptr;

@@ -2,6 +2,7 @@
 #ifndef taut_scene_partition_h
 #define taut_scene_partition_h
 
+#include <taut/base/communicator.h>
 #include <taut/base/coordinates.h>
 #include <taut/scene/scene.h>
 
@@ -20,7 +21,8 @@ namespace taut
   class Substructure;
   struct BodySetting;
 
-  /// The cells of a body, and the DoFs on them.
+  /// The cells of a body on this rank, all of them unless its mesh is distributed, and the DoFs on
+  /// them.
   struct BodyCells
   {
     unsigned int dim = 0; ///< 2: in the plane, 3: in space
@@ -36,8 +38,14 @@ namespace taut
     /// part alike.
     std::vector<char> is_determined;
 
+    /// Of a distributed mesh: the number of each DoF here among those of the whole body, ascending;
+    /// and the sizes of the whole body. Empty and 0: all cells are here.
+    std::vector<unsigned int> numbers = {};
+    std::size_t n_cells_of_all = 0, n_dofs_of_all = 0;
+
     std::size_t size() const { return begin.size() - 1; }
-    std::size_t n_dofs() const { return is_determined.size(); }
+    std::size_t n_dofs() const { return numbers.empty() ? is_determined.size() : n_dofs_of_all; }
+    std::size_t n_cells() const { return numbers.empty() ? size() : n_cells_of_all; }
   };
 
   /**
@@ -45,6 +53,9 @@ namespace taut
    * let the partition cut a body of your own. A part has the DoFs of its cells, in ascending order,
    * and the elements of these cells only. A DoF on a cut is in all adjacent parts, and bilateral
    * constraints tie its copies. Every rank has the object.
+   *
+   * The cells of a body may be distributed over the ranks. Each rank then cuts its own ones, and
+   * "all cells" below are those of this rank.
    */
   class DivisibleBody
   {
@@ -53,10 +64,15 @@ namespace taut
 
     virtual const BodyCells &cells() const = 0;
 
-    /// The cell that contains a place; throws UserError if the place is not on the body.
+    /// The ranks over which the cells are distributed; one process: every rank has all cells.
+    virtual Communicator processes() const { return {}; }
+    bool is_distributed() const { return processes().size() > 1; }
+
+    /// The cell that contains a place; throws UserError if the place is on none of the cells.
     virtual std::size_t cell_at(const Coordinates &place) const = 0;
 
-    /// A cell at a node of BodyType::surface().
+    /// A cell at a node of BodyType::surface(). If the cells are distributed, one rank has it, and
+    /// others return cells().size().
     virtual std::size_t cell_at_node(unsigned int node) const = 0;
 
     /// Makes the part of these cells, in ascending order. Called on the rank that owns the part.
@@ -86,6 +102,10 @@ namespace taut
     {
       std::shared_ptr<const DivisibleBody> body;
       std::vector<unsigned int> part; ///< part of each cell
+
+      /// Of a distributed body: the first part of each rank, and the end; its parts are numbered
+      /// one after the other.
+      std::vector<unsigned int> first_of_rank = {};
     };
     std::vector<Division> bodies; ///< one for each custom body, or empty
 

@@ -13,8 +13,9 @@
 
 namespace taut
 {
-  /// The cells of an FEBody for a DivisibleBody: active cells of the triangulation, by their
-  /// number. Use it in BodyType::division() of a body of deal.II.
+  /// The cells of an FEBody for a DivisibleBody: active cells of the triangulation that are locally
+  /// owned, in their order. The triangulation may be distributed. Use it in BodyType::division() of
+  /// a body of deal.II.
   template <int dim>
   class CellDivision
   {
@@ -27,12 +28,21 @@ namespace taut
 
     const BodyCells &cells() const { return body_cells; }
 
+    /// The cell of each number.
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+    const std::vector<Cell> &cell_iterators() const { return own_cells; }
+
+    /// As DivisibleBody::processes(): those of the triangulation.
+    const Communicator &processes() const { return ranks; }
+
     /// As DivisibleBody::cell_at().
     std::size_t cell_at(const Coordinates &place) const;
 
   private:
     const dealii::DoFHandler<dim> &handler;
     const dealii::Mapping<dim> &mapping;
+    const Communicator ranks;
+    std::vector<Cell> own_cells;
     BodyCells body_cells;
   };
 } // namespace taut

@@ -122,10 +122,10 @@ namespace taut
     /// Stresses [Pa], principal stresses, the largest first, and von Mises' stress. Stresses are
     /// from the Gauss points of least error (J. Barlow, Int. J. Numer. Meth. Engng 10 (1976)),
     /// averaged at the nodes among cells of one material.
-    std::shared_ptr<const void>
-    add_fields(const dealii::Vector<double> &all, const std::vector<Cell> &cells,
-               dealii::DataOut<dim, dim> &data,
-               std::map<std::string, std::string> &units) const override;
+    using typename FEBody<dim>::CellFields;
+    using typename FEBody<dim>::DrawnCell;
+    CellFields fields(const std::vector<DrawnCell> &cells,
+                      const std::vector<dealii::Point<dim>> &points) const override;
 
   private:
     struct Assembled;

@@ -11,7 +11,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace taut
@@ -45,7 +44,7 @@ namespace taut
   public:
     /// @p conditions are kept by reference. Throws EntryError about a condition on a boundary that
     /// the mesh does not have, and about two conditions for the displacement of one boundary along
-    /// one axis.
+    /// one axis. Called by all ranks of a distributed mesh together.
     SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
 
     /// Homogeneous constraints (see prescribed() for values that are not zero). They are not
@@ -61,12 +60,14 @@ namespace taut
     const std::vector<Prescribed> &prescribed() const { return given; }
 
   private:
-    /// The condition that holds a boundary along an axis.
-    using Holders =
-        std::map<std::pair<dealii::types::boundary_id, unsigned int>, const BoundaryCondition *>;
+    /// Of each DoF the numbers of the conditions that hold it, and the boundary of each.
+    using Held = std::map<dealii::types::global_dof_index, std::map<unsigned int, unsigned int>>;
 
-    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition,
-                   Holders &holders);
+    static Held find_held(const SolidMesh<dim> &mesh,
+                          const std::vector<BoundaryCondition> &conditions);
+    void share(const SolidMesh<dim> &mesh, Held &held) const;
+    void constrain(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions,
+                   const Held &held);
 
     dealii::AffineConstraints<double> all;
     std::vector<Prescribed> given;

@@ -6,25 +6,24 @@
 #include <taut/substructure/body_traits.h>
 #include <taut/substructure/substructure.h>
 
+#include <deal.II/base/quadrature.h>
+
 #include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/fe/mapping.h>
 
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
+
+#include <deal.II/numerics/data_component_interpretation.h>
 
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  template <int dim, int spacedim>
-  class DataOut;
-}
 
 namespace taut
 {
@@ -64,8 +63,10 @@ namespace taut
       /// Places are found with this mapping; none: straight cells.
       const dealii::Mapping<dim> *mapping = nullptr;
 
-      /// The active cells of the body, if it is a part of a larger body; empty: all cells. A part
-      /// has the DoFs part_dofs() only, and its vectors have an entry for each of these.
+      /// The active cells of the body, if it is a part of a larger body; empty: all cells, those
+      /// of this rank if the triangulation is distributed. A part has the DoFs part_dofs() only,
+      /// and its vectors, matrices and loads have an entry for each of these, as have those of a
+      /// body on a distributed triangulation.
       std::vector<Cell> cells = {};
     };
 
@@ -151,21 +152,33 @@ namespace taut
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
 
   protected:
-    /// Adds fields beside the displacement for write_vtu(), and their units, from all_dofs() and
-    /// the cells of all parts that are drawn. What it returns lives as long as the output.
-    virtual std::shared_ptr<const void> add_fields(const dealii::Vector<double> &,
-                                                   const std::vector<Cell> &,
-                                                   dealii::DataOut<dim, dim> &,
-                                                   std::map<std::string, std::string> &) const
+    /// A cell that write_vtu() draws, in ascending order.
+    struct DrawnCell
     {
-      return nullptr;
+      Cell cell;
+      std::vector<dealii::types::global_dof_index> dofs;
+      std::vector<double> U; ///< displacements of these, dependent ones included
+    };
+
+    /// Fields beside the displacement, one entry for each component.
+    struct CellFields
+    {
+      std::vector<std::string> names, units;
+      std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> kinds;
+      std::vector<dealii::FullMatrix<double>> values; ///< of each cell: components x points
+    };
+
+    /// More fields for write_vtu(), at these points of the unit cell.
+    virtual CellFields fields(const std::vector<DrawnCell> &,
+                              const std::vector<dealii::Point<dim>> &) const
+    {
+      return {};
     }
 
   private:
     class Load;
+    class Picture;
 
-    void set_all_dofs(const std::vector<double> &U, dealii::Vector<double> &all) const;
-    void show_cells(const std::vector<Cell> &cells, dealii::DataOut<dim, dim> &data) const;
     void set_matrix(const dealii::SparseMatrix<double> &source, SymmetricMatrix &target) const;
     void condense(const dealii::Vector<double> &P, std::vector<double> &result) const;
     std::vector<std::vector<double>> candidates(const Options &options) const;

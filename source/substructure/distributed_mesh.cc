@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "substructure/distributed_mesh.h"
+
+#include <deal.II/distributed/tria_base.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+namespace taut
+{
+  template <int dim>
+  Communicator processes_of(const dealii::Triangulation<dim> &triangulation)
+  {
+    if (dynamic_cast<const dealii::parallel::TriangulationBase<dim> *>(&triangulation))
+      return Communicator(triangulation.get_communicator());
+    return {};
+  }
+
+  template <int dim>
+  std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
+  own_cells_of(const dealii::DoFHandler<dim> &handler)
+  {
+    std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> result;
+    for (const auto &cell : handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        result.push_back(cell);
+    return result;
+  }
+
+  template <int dim>
+  dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<dim> &handler)
+  {
+    dealii::AffineConstraints<double> result;
+    if (processes_of(handler.get_triangulation()).size() > 1)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(handler, relevant);
+      result.reinit(relevant);
+    }
+    dealii::DoFTools::make_hanging_node_constraints(handler, result);
+    result.close();
+    return result;
+  }
+
+  namespace
+  {
+    /// A point this far from the unit cell is still on it, as in deal.II's search.
+    constexpr double on_cell = 1e-10;
+
+    /// The search of deal.II may end in the cell of another rank where a point is on two cells.
+    template <int dim>
+    std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, dealii::Point<dim>>
+    own_cell_around(const dealii::DoFHandler<dim> &handler, const dealii::Mapping<dim> &mapping,
+                    const dealii::Point<dim> &point)
+    {
+      for (const auto &cell : handler.active_cell_iterators())
+      {
+        // Curved cells reach beyond their corners, by less than their size.
+        if (!cell->is_locally_owned() || !(cell->center().distance(point) <= 2. * cell->diameter()))
+          continue;
+        try
+        {
+          const dealii::Point<dim> unit = mapping.transform_real_to_unit_cell(cell, point);
+          if (cell->reference_cell().contains_point(unit, on_cell))
+            return {cell, unit};
+        }
+        catch (const dealii::ExceptionBase &) // far from the cell
+        {
+        }
+      }
+      return {handler.end(), {}};
+    }
+  } // namespace
+
+  template <int dim>
+  std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, dealii::Point<dim>>
+  cell_around(const dealii::DoFHandler<dim> &handler, const dealii::Mapping<dim> &mapping,
+              const dealii::Point<dim> &point)
+  {
+    if (processes_of(handler.get_triangulation()).size() > 1)
+      return own_cell_around(handler, mapping, point);
+    try
+    {
+      return dealii::GridTools::find_active_cell_around_point(mapping, handler, point);
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+      return {handler.end(), {}};
+    }
+  }
+
+  template Communicator processes_of(const dealii::Triangulation<1> &);
+  template std::vector<dealii::DoFHandler<1>::active_cell_iterator>
+  own_cells_of(const dealii::DoFHandler<1> &);
+  template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<1> &);
+  template std::pair<dealii::DoFHandler<1>::active_cell_iterator, dealii::Point<1>>
+  cell_around(const dealii::DoFHandler<1> &, const dealii::Mapping<1> &, const dealii::Point<1> &);
+  template Communicator processes_of(const dealii::Triangulation<2> &);
+  template std::vector<dealii::DoFHandler<2>::active_cell_iterator>
+  own_cells_of(const dealii::DoFHandler<2> &);
+  template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<2> &);
+  template std::pair<dealii::DoFHandler<2>::active_cell_iterator, dealii::Point<2>>
+  cell_around(const dealii::DoFHandler<2> &, const dealii::Mapping<2> &, const dealii::Point<2> &);
+  template Communicator processes_of(const dealii::Triangulation<3> &);
+  template std::vector<dealii::DoFHandler<3>::active_cell_iterator>
+  own_cells_of(const dealii::DoFHandler<3> &);
+  template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<3> &);
+  template std::pair<dealii::DoFHandler<3>::active_cell_iterator, dealii::Point<3>>
+  cell_around(const dealii::DoFHandler<3> &, const dealii::Mapping<3> &, const dealii::Point<3> &);
+} // namespace taut

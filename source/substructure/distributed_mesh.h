@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_distributed_mesh_h
+#define taut_distributed_mesh_h
+
+#include <taut/base/communicator.h>
+
+#include <deal.II/base/point.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/mapping.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  /// The ranks over which a triangulation is distributed; one process if it is not.
+  template <int dim>
+  Communicator processes_of(const dealii::Triangulation<dim> &triangulation);
+
+  /// The locally owned active cells of a DoFHandler: all of a serial triangulation.
+  template <int dim>
+  std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
+  own_cells_of(const dealii::DoFHandler<dim> &handler);
+
+  /// The constraints of hanging nodes on cells of this rank, closed.
+  template <int dim>
+  dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<dim> &handler);
+
+  /// The locally owned cell with a point and the place of the point in the unit cell;
+  /// handler.end(): the point is on none.
+  template <int dim>
+  std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, dealii::Point<dim>>
+  cell_around(const dealii::DoFHandler<dim> &handler, const dealii::Mapping<dim> &mapping,
+              const dealii::Point<dim> &point);
+} // namespace taut
+
+#endif
