@@ -54,7 +54,7 @@ namespace taut
     {
       double n_dofs = structure.n_dofs();
       structure.communicator().sum(&n_dofs, 1);
-      const double n = constraints.size();
+      const auto n = static_cast<double>(constraints.n_of_all());
       return have_long_columns(structure) && 2. * n * n <= most_stored_numbers * n_dofs;
     }
 
@@ -140,7 +140,7 @@ namespace taut
     bool is_nonlinear = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
       is_nonlinear = is_nonlinear || !structure[k].is_linear();
-    const bool has_cuts = constraints.common_rows().size() < constraints.size();
+    const bool has_cuts = constraints.common_rows().size() < constraints.n_of_all();
     if (processes.size() == 1 || !has_cuts || !constraints.turning_rows().empty() ||
         processes.any(is_nonlinear))
       return false;

@@ -20,7 +20,10 @@ namespace taut
     void check_hanging_nodes(const FEBody<dim> &body,
                              const std::map<dealii::types::global_dof_index, Value> &moved)
     {
-      if (moved.empty() || !body.dof_handler().get_triangulation().has_hanging_nodes())
+      // Of the cells of this rank: that of a distributed triangulation asks the others.
+      if (moved.empty() || !body.dof_handler()
+                                .get_triangulation()
+                                .dealii::template Triangulation<dim>::has_hanging_nodes())
         return;
       const dealii::AffineConstraints<double> whole = hanging_nodes(body.dof_handler());
       for (const auto &line : whole.get_lines())

@@ -26,17 +26,23 @@ namespace verification
       const auto add_object = [this](const int type, const int id, const auto &object)
       {
         std::vector<std::size_t> corners;
+        const bool is_turned = type == quadrilateral || type == hexahedron;
         for (const unsigned int v : object->vertex_indices())
-          corners.push_back(1 + object->vertex_index(v % 4 < 2 ? v : v ^ 1u));
+          corners.push_back(1 + object->vertex_index(is_turned && v % 4 >= 2 ? v ^ 1u : v));
         add(type, id, corners);
       };
+      const bool has_boxes = cells.all_reference_cells_are_hyper_cube();
       for (const auto &cell : cells.active_cell_iterators())
       {
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
-            add_object(dim == 2 ? line : quadrilateral, first_id + cell->face(f)->boundary_id(),
-                       cell->face(f));
-        add_object(dim == 2 ? quadrilateral : hexahedron, cell->material_id(), cell);
+            add_object(dim == 2    ? line
+                       : has_boxes ? quadrilateral
+                                   : triangle,
+                       first_id + cell->face(f)->boundary_id(), cell->face(f));
+        add_object(dim == 2 ? (has_boxes ? quadrilateral : triangle)
+                            : (has_boxes ? hexahedron : tetrahedron),
+                   cell->material_id(), cell);
       }
     }
 
