@@ -277,8 +277,9 @@ namespace taut
       return division.part[division.body->cell_at(place)];
     const auto known = part_of_place.find(std::make_tuple(body, place.x, place.y, place.z));
     if (known == part_of_place.end() || !known->second)
-      throw UserError(
-          to_text("the point ", place.x, ' ', place.y, ' ', place.z, " is not on the body"));
+      throw UserError(to_text("the point ", place.x, ' ', place.y,
+                              division.body->cells().dim == 3 ? to_text(' ', place.z) : "",
+                              " is not on the body"));
     return *known->second;
   }
 

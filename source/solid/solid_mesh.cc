@@ -6,6 +6,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <deal.II/distributed/tria.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/fe_q.h>
@@ -139,7 +141,7 @@ namespace taut
   struct SolidMesh<dim>::Face
   {
     unsigned int level = 0, number = 0, id = 0; ///< of the cell; on the cell; of the boundary
-    std::string cell;                           ///< its CellId
+    std::vector<unsigned int> cell;             ///< its place_in_order()
     std::vector<unsigned int> dofs;             ///< of the nodes, in the order of ContactSurface
     std::vector<Coordinates> points;
     Coordinates outward;
@@ -154,6 +156,31 @@ namespace taut
       archive &outward.x &outward.y &outward.z;
     }
   };
+
+  namespace
+  {
+    /// Number of the coarse cell that has the cell, and numbers of children down to it: the same
+    /// on any number of ranks.
+    template <typename Cell, int dim = Cell::AccessorType::dimension>
+    std::vector<unsigned int> place_in_order(const Cell &cell)
+    {
+      const dealii::CellId id = cell->id();
+      auto coarse = static_cast<unsigned int>(id.get_coarse_cell_id());
+      // There ids are those of the trees of p4est, and all ranks have all coarse cells.
+      if (dynamic_cast<const dealii::parallel::distributed::Triangulation<dim> *>(
+              &cell->get_triangulation()))
+      {
+        typename dealii::Triangulation<dim>::cell_iterator top = cell;
+        while (top->level() > 0)
+          top = top->parent();
+        coarse = top->index();
+      }
+      std::vector<unsigned int> result = {coarse};
+      for (const auto child : id.get_child_indices())
+        result.push_back(child);
+      return result;
+    }
+  } // namespace
 
   /// The faces of the boundary on the cells of this rank.
   template <int dim>
@@ -190,42 +217,29 @@ namespace taut
         }
         values.reinit(cell, f);
         face.outward = coordinates<dim>(values.normal_vector(0));
-        if (ranks.size() > 1)
-        {
-          face.level = cell->level();
-          face.cell = cell->id().to_string();
-        }
+        face.level = cell->level();
+        face.cell = place_in_order(cell);
         result.push_back(std::move(face));
       }
     return result;
   }
 
-  /// The faces of all ranks, in the order of a mesh that is not distributed: level by level, and
-  /// there by coarse cells and their children.
+  /// The faces of all ranks, and their hanging nodes.
   template <int dim>
   void SolidMesh<dim>::share(std::vector<Face> &faces,
                              std::map<unsigned int, Parents> &hanging) const
   {
     const std::vector<std::string> all =
         ranks.gather(archived([&](OutputArchive &archive) { archive << faces << hanging; }));
-    std::vector<std::pair<dealii::CellId, Face>> ordered;
+    faces.clear();
     for (const std::string &text : all)
     {
-      std::map<unsigned int, Parents> of_rank;
-      unarchive(text, [&](InputArchive &archive) { archive >> faces >> of_rank; });
-      hanging.insert(of_rank.begin(), of_rank.end());
-      for (Face &face : faces)
-        ordered.emplace_back(dealii::CellId(face.cell), std::move(face));
+      std::vector<Face> of_rank;
+      std::map<unsigned int, Parents> hanging_of_rank;
+      unarchive(text, [&](InputArchive &archive) { archive >> of_rank >> hanging_of_rank; });
+      faces.insert(faces.end(), of_rank.begin(), of_rank.end());
+      hanging.insert(hanging_of_rank.begin(), hanging_of_rank.end());
     }
-    std::sort(ordered.begin(), ordered.end(),
-              [](const auto &a, const auto &b)
-              {
-                return std::tie(a.second.level, a.first, a.second.number) <
-                       std::tie(b.second.level, b.first, b.second.number);
-              });
-    faces.clear();
-    for (auto &[cell, face] : ordered)
-      faces.push_back(std::move(face));
   }
 
   template <int dim>
@@ -240,6 +254,11 @@ namespace taut
           hanging[face.dofs[i]].assign(entries->begin(), entries->end());
     if (ranks.size() > 1)
       share(faces, hanging);
+    // The same order on any number of ranks.
+    std::sort(faces.begin(), faces.end(),
+              [](const Face &a, const Face &b) {
+                return std::tie(a.level, a.cell, a.number) < std::tie(b.level, b.cell, b.number);
+              });
 
     boundary.surface.dim = dim;
     boundary.surface.degree = degree();
