@@ -238,7 +238,7 @@ namespace taut
     if (dim * n_nodes < least_dofs)
       return nullptr;
     std::unique_ptr<parallel::TriangulationBase<dim>> cells;
-    if (has_boxes)
+    if (has_boxes && refinements + local_refinements > 0)
     {
 #ifdef DEAL_II_WITH_P4EST
       start_p4est();
@@ -257,6 +257,9 @@ namespace taut
       dealii::GridTools::partition_triangulation(processes.size(), coarse);
       auto distributed =
           std::make_unique<parallel::fullydistributed::Triangulation<dim>>(processes.of_mpi());
+      for (const auto id : coarse.get_manifold_ids())
+        if (id != dealii::numbers::flat_manifold_id)
+          distributed->set_manifold(id, coarse.get_manifold(id));
       distributed->create_triangulation(
           dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
               coarse, processes.of_mpi()));

@@ -97,8 +97,8 @@ TEST(Ranks, solids_in_parts_are_the_same)
 }
 
 // Claim: so are blocks whose meshes do not match, tied by mortar constraints across ranks, and a
-// solid in space on a floor. Its iterations are those of one rank but for what the order of sums
-// does near their end. Expected: as above; as many systems, and iterations to 3 %.
+// solid in space on a floor. Its parts depend on the number of ranks, which share its mesh.
+// Expected: as above; as many systems as on one rank, and at most a tenth more iterations.
 TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
 {
   expect_same_solid("block_on_block", scene_file("block_on_block"), {}, {2u, 7u});
@@ -115,7 +115,7 @@ TEST(Ranks, mortar_constraints_and_solids_in_space_are_the_same)
                            one = iterations(record_nodes_of(cube, parts, taut::Communicator()));
   EXPECT_GT(one[0], 0);
   EXPECT_EQ(here[1], one[1]);
-  EXPECT_NEAR(here[0], one[0], .03 * one[0]);
+  EXPECT_LE(here[0], 1.1 * one[0]);
   figure(ranks_and_comma() + "iterations over those of one rank", double(here[0]) / one[0]);
 }
 
