@@ -170,8 +170,7 @@ namespace taut
   SolidConditions<dim>::SolidConditions(const SolidMesh<dim> &mesh,
                                         const std::vector<BoundaryCondition> &conditions)
   {
-    if (mesh.processes().size() > 1)
-      all.reinit(mesh.relevant_dofs());
+    restrict_to_rank(all, mesh.dof_handler());
     const dealii::AffineConstraints<double> hanging = hanging_nodes(mesh.dof_handler());
     for (const auto &line : hanging.get_lines())
     {

@@ -8,8 +8,6 @@
 
 #include <deal.II/distributed/tria.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_tools.h>
@@ -78,7 +76,7 @@ namespace taut
   void SolidMesh<dim>::find_points()
   {
     if (ranks.size() > 1)
-      dealii::DoFTools::extract_locally_relevant_dofs(handler, relevant);
+      relevant = relevant_dofs(handler);
     support_points.resize(ranks.size() > 1 ? relevant.n_elements() : handler.n_dofs());
     components.resize(support_points.size());
     dealii::FEValues<dim> values(*cell_mapping, element,

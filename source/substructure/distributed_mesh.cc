@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "substructure/distributed_mesh.h"
 
+#include <deal.II/base/config.h>
+
 #include <deal.II/distributed/tria_base.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
 
 namespace taut
 {
@@ -29,15 +33,41 @@ namespace taut
   }
 
   template <int dim>
+  dealii::IndexSet relevant_dofs(const dealii::DoFHandler<dim> &handler)
+  {
+    std::vector<dealii::types::global_dof_index> dofs, on_cell(handler.get_fe().n_dofs_per_cell());
+    for (const auto &cell : handler.active_cell_iterators())
+      if (!cell->is_artificial())
+      {
+        cell->get_dof_indices(on_cell);
+        dofs.insert(dofs.end(), on_cell.begin(), on_cell.end());
+      }
+    std::sort(dofs.begin(), dofs.end());
+    dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+    dealii::IndexSet result(handler.n_dofs());
+    result.add_indices(dofs.begin(), dofs.end());
+    result.compress();
+    return result;
+  }
+
+  template <int dim>
+  void restrict_to_rank(dealii::AffineConstraints<double> &constraints,
+                        const dealii::DoFHandler<dim> &handler)
+  {
+    if (processes_of(handler.get_triangulation()).size() == 1)
+      return;
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    constraints.reinit(handler.locally_owned_dofs(), relevant_dofs(handler));
+#else
+    constraints.reinit(relevant_dofs(handler));
+#endif
+  }
+
+  template <int dim>
   dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<dim> &handler)
   {
     dealii::AffineConstraints<double> result;
-    if (processes_of(handler.get_triangulation()).size() > 1)
-    {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(handler, relevant);
-      result.reinit(relevant);
-    }
+    restrict_to_rank(result, handler);
     dealii::DoFTools::make_hanging_node_constraints(handler, result);
     result.close();
     return result;
@@ -94,18 +124,27 @@ namespace taut
   template std::vector<dealii::DoFHandler<1>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<1> &);
   template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<1> &);
+  template dealii::IndexSet relevant_dofs(const dealii::DoFHandler<1> &);
+  template void restrict_to_rank(dealii::AffineConstraints<double> &,
+                                 const dealii::DoFHandler<1> &);
   template std::pair<dealii::DoFHandler<1>::active_cell_iterator, dealii::Point<1>>
   cell_around(const dealii::DoFHandler<1> &, const dealii::Mapping<1> &, const dealii::Point<1> &);
   template Communicator processes_of(const dealii::Triangulation<2> &);
   template std::vector<dealii::DoFHandler<2>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<2> &);
   template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<2> &);
+  template dealii::IndexSet relevant_dofs(const dealii::DoFHandler<2> &);
+  template void restrict_to_rank(dealii::AffineConstraints<double> &,
+                                 const dealii::DoFHandler<2> &);
   template std::pair<dealii::DoFHandler<2>::active_cell_iterator, dealii::Point<2>>
   cell_around(const dealii::DoFHandler<2> &, const dealii::Mapping<2> &, const dealii::Point<2> &);
   template Communicator processes_of(const dealii::Triangulation<3> &);
   template std::vector<dealii::DoFHandler<3>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<3> &);
   template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<3> &);
+  template dealii::IndexSet relevant_dofs(const dealii::DoFHandler<3> &);
+  template void restrict_to_rank(dealii::AffineConstraints<double> &,
+                                 const dealii::DoFHandler<3> &);
   template std::pair<dealii::DoFHandler<3>::active_cell_iterator, dealii::Point<3>>
   cell_around(const dealii::DoFHandler<3> &, const dealii::Mapping<3> &, const dealii::Point<3> &);
 } // namespace taut

@@ -4,6 +4,7 @@
 
 #include <taut/base/communicator.h>
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/point.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -25,6 +26,15 @@ namespace taut
   template <int dim>
   std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<dim> &handler);
+
+  /// DoFs on cells of this rank and beside it.
+  template <int dim>
+  dealii::IndexSet relevant_dofs(const dealii::DoFHandler<dim> &handler);
+
+  /// Lets constraints know the relevant_dofs() alone, if the triangulation is distributed.
+  template <int dim>
+  void restrict_to_rank(dealii::AffineConstraints<double> &constraints,
+                        const dealii::DoFHandler<dim> &handler);
 
   /// The constraints of hanging nodes on cells of this rank, closed.
   template <int dim>

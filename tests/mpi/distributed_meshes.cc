@@ -4,6 +4,7 @@
 #include "nodes.h"
 
 #include "solid/mesh_file.h"
+#include "substructure/distributed_mesh.h"
 #include <taut/scene/partition.h>
 #include <taut/solid/cell_division.h>
 #include <taut/solid/elastic_solid.h>
@@ -305,9 +306,7 @@ end
       mesh->execute_coarsening_and_refinement();
       handler.reinit(*mesh);
       handler.distribute_dofs(element);
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(handler, relevant);
-      rim.reinit(relevant);
+      taut::restrict_to_rank(rim, handler);
       dealii::DoFTools::make_hanging_node_constraints(handler, rim);
       dealii::DoFTools::make_zero_boundary_constraints(handler, rim);
       rim.close();

@@ -73,9 +73,6 @@ namespace taut
       return components[index(dof)];
     }
 
-    /// DoFs on cells of this rank and beside it, of a distributed mesh.
-    const dealii::IndexSet &relevant_dofs() const { return relevant; }
-
     /// The diagonal of the box around the mesh [m].
     double size() const;
 
