@@ -26,10 +26,10 @@ namespace taut
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>> make(const std::string &origin) const;
 
-    /// The same mesh, distributed over the ranks: by p4est if it is refined, and else by METIS. Null
-    /// if it is refined locally, if a rank would get no cell, or if it has fewer than @p least_dofs
-    /// DoFs for elements of this degree, for which a number below the true one is taken. Called by
-    /// all ranks together.
+    /// The same mesh, distributed over the ranks: by p4est if it is refined, and else by METIS.
+    /// Null if it is refined locally, if a rank would get no cell, or if it has fewer than @p
+    /// least_dofs DoFs for elements of this degree, for which a number below the true one is taken.
+    /// Called by all ranks together.
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>>
     make_distributed(const std::string &origin, const Communicator &processes, unsigned int degree,
