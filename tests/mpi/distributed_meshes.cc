@@ -141,50 +141,7 @@ end
 )" + more;
   }
 
-  /// A cube of hexahedra on a floor.
-  std::string cube()
-  {
-    return R"(
-set Generator = network
-set Start     = equilibrium
-set Bodies    = cube
-set Contacts  = floor
-set Gravity   = 0, 0
-subsection Body cube
-  set Type                = solid
-  set Dimension           = 3
-  set Young's modulus     = 1e9
-  set Poisson's ratio     = 0.3
-  set Density             = 7850
-  set Symmetry boundaries = 0, 2
-  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
-  subsection Mesh
-    set Generator         = subdivided_hyper_rectangle
-    set Arguments         = 2, 2, 2 : 0, 0, 0 : 1, 1, 1
-    set Refinements       = 2
-  end
-end
-subsection Contact floor
-  set Slave           = cube: 4
-  set Obstacle        = plane
-  set Point           = 0, 0, 0
-  set Direction       = 0, 0, 1
-  set Search distance = 0.1
-end
-subsection Output
-  set Probes = corner
-  subsection Probe corner
-    set Point     = cube @ 0, 0, 1
-    set Direction = 0, 0, 1
-  end
-end
-subsection Time
-  set End = 0
-end
-)";
-  }
-
-  /// The same cube of tetrahedra, in a file.
+  /// A cube of tetrahedra in a file, held at x = 0, with its weight on a spring.
   std::string cube_of_tetrahedra(const std::string &path)
   {
     return R"(
@@ -213,17 +170,7 @@ subsection Network
     set Stiffness = 1e6
   end
 end
-subsection Output
-  set Probes = corner
-  subsection Probe corner
-    set Point     = cube @ 0, 0, 1
-    set Direction = 0, 0, 1
-  end
-end
-subsection Time
-  set End = 0
-end
-)";
+)" + cube_at_rest;
   }
 
   /// A membrane of bilinear elements on the unit square, held on its rim: a user's body with a
@@ -400,7 +347,7 @@ end
 TEST(Ranks, cells_of_a_solid_are_on_one_rank_each)
 {
   expect_shared(block(""), {"Partition/Number of substructures=8"});
-  expect_shared(cube(), {"Partition/Number of substructures=8"});
+  expect_shared(cube_on_floor(2, 2), {"Partition/Number of substructures=8"});
 }
 
 // Claim: answers are those of the whole mesh, with held and moved boundaries, loads,
@@ -420,8 +367,8 @@ TEST(Ranks, distributed_meshes_give_the_answers_of_whole_ones)
     expect_same(title + " in motion", block(in_motion), 4, of_degree);
     expect_same(title + " in motion, matrix-free", block(in_motion), 9, of_degree + matrix_free);
   }
-  expect_same("cube", cube(), 8);
-  expect_same("cube, degree 2", cube(), 6, {"Body cube/Degree=2", "Body cube/Mesh/Refinements=1"});
+  expect_same("cube", cube_on_floor(2, 2), 8);
+  expect_same("cube, degree 2", cube_on_floor(2, 1), 6, {"Body cube/Degree=2"});
 }
 
 // Claim: so do tetrahedra of a file, which METIS shares out, and a user's body on a distributed

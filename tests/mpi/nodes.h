@@ -76,6 +76,56 @@ namespace verification
     return record_nodes_of(scene_file(scene), overrides, processes);
   }
 
+  /// A probe of the cube of a scene, at rest.
+  inline const std::string cube_at_rest = R"(
+subsection Output
+  set Probes = corner
+  subsection Probe corner
+    set Point     = cube @ 0, 0, 1
+    set Direction = 0, 0, 1
+  end
+end
+subsection Time
+  set End = 0
+end
+)";
+
+  /// A cube of so many coarse elements along an edge, each halved so many times, which a pressure
+  /// at one edge lifts from a rigid floor elsewhere.
+  inline std::string cube_on_floor(const unsigned int n, const unsigned int refinements = 0)
+  {
+    const std::string number = std::to_string(n);
+    return R"(
+set Generator = network
+set Bodies    = cube
+set Contacts  = floor
+set Gravity   = 0, 0
+subsection Body cube
+  set Type                = solid
+  set Dimension           = 3
+  set Young's modulus     = 1e9
+  set Poisson's ratio     = 0.3
+  set Density             = 7850
+  set Symmetry boundaries = 0, 2
+  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
+  subsection Mesh
+    set Generator   = subdivided_hyper_rectangle
+    set Arguments   = )" +
+           number + ", " + number + ", " + number + R"( : 0, 0, 0 : 1, 1, 1
+    set Refinements = )" +
+           std::to_string(refinements) + R"(
+  end
+end
+subsection Contact floor
+  set Slave           = cube: 4
+  set Obstacle        = plane
+  set Point           = 0, 0, 0
+  set Direction       = 0, 0, 1
+  set Search distance = 0.1
+end
+)" + cube_at_rest;
+  }
+
   inline std::string ranks_and_comma()
   {
     return std::to_string(taut::Communicator(MPI_COMM_WORLD).size()) + " ranks, ";

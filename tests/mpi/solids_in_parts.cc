@@ -37,43 +37,6 @@ namespace
     expect_same_solid(scene, scene_file(scene), overrides, {1u, 2u, 7u, 64u});
   }
 
-  /// A cube of so many elements along an edge, which a pressure at one edge lifts from a rigid
-  /// floor elsewhere.
-  std::string cube_on_floor(const unsigned int n)
-  {
-    const std::string number = std::to_string(n);
-    return R"(
-set Generator = network
-set Bodies    = cube
-set Contacts  = floor
-set Gravity   = 0, 0
-subsection Body cube
-  set Type                = solid
-  set Dimension           = 3
-  set Young's modulus     = 1e9
-  set Poisson's ratio     = 0.3
-  set Density             = 7850
-  set Symmetry boundaries = 0, 2
-  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = )" +
-           number + ", " + number + ", " + number + R"( : 0, 0, 0 : 1, 1, 1
-  end
-end
-subsection Contact floor
-  set Slave           = cube: 4
-  set Obstacle        = plane
-  set Point           = 0, 0, 0
-  set Direction       = 0, 0, 1
-  set Search distance = 0.1
-end
-subsection Time
-  set End = 0
-end
-)";
-  }
-
   /// Iterations of conjugate gradients and systems, of which the log tells.
   std::array<int, 2> iterations(const NodeRecord &record)
   {
