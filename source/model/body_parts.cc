@@ -268,6 +268,14 @@ namespace taut
       note(probe.point);
   }
 
+  unsigned int SceneBodies::n_sharing_ranks() const
+  {
+    for (const BodyParts &body : custom_bodies)
+      if (body.division.body && body.division.body->is_distributed())
+        return body.division.body->processes().size();
+    return 0;
+  }
+
   std::size_t SceneBodies::part_at(const std::size_t body, const Coordinates &place) const
   {
     const Partition::Division &division = custom_bodies[body].division;

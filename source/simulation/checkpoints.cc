@@ -27,20 +27,25 @@ namespace taut
     /// Begins the names of files among those of entries.
     const std::string file_mark = "file ";
 
+    /// Among the names of entries: how many ranks share meshes.
+    const std::string sharing_mark = "ranks that share meshes";
+
     std::map<std::string, std::string> with_files(std::map<std::string, std::string> entries,
-                                                  const DataFiles &files)
+                                                  const DataFiles &files,
+                                                  const unsigned int n_sharing_ranks)
     {
       for (const auto &[name, text] : files)
         entries[file_mark + name] = digest(*text);
+      entries[sharing_mark] = std::to_string(n_sharing_ranks);
       return entries;
     }
   } // namespace
 
   Checkpoints::Checkpoints(const std::string &folder, const double interval, std::ostream &log,
                            const std::map<std::string, std::string> &entries,
-                           const DataFiles &files)
-      : folder(folder), interval(interval), log(log), entries(with_files(entries, files)),
-        next(interval)
+                           const DataFiles &files, const unsigned int n_sharing_ranks)
+      : folder(folder), interval(interval), log(log),
+        entries(with_files(entries, files, n_sharing_ranks)), next(interval)
   {
   }
 
@@ -88,6 +93,11 @@ namespace taut
       const auto before = stored.entries.find(path);
       if (path == own_folder || (before != stored.entries.end() && before->second == value))
         continue;
+      if (path == sharing_mark)
+        throw UserError(
+            "ranks share the mesh of a body, whose parts depend on their number: resume "
+            "the run on " +
+            std::to_string(stored.n_ranks) + " ranks as before, or begin anew with --overwrite");
       if (path.compare(0, file_mark.size(), file_mark) == 0)
         throw UserError("the file '" + path.substr(file_mark.size()) +
                         "' is not what it was in the run that is to be resumed; put back the copy "

@@ -90,7 +90,7 @@ namespace taut
       check_results_folder(parameters, processes);
     keep_folder();
     Checkpoints checkpoints(output.folder, output.checkpoint_interval, log, parameters.values(),
-                            data_files());
+                            data_files(), bodies.n_sharing_ranks());
     if (output.resume)
       checkpoints.find(processes);
     describe();

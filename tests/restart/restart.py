@@ -179,6 +179,20 @@ def check_other_ranks(folder, scene, bound):
             expect(f"{what}: {table}", worst <= bound, worst)
 
 
+def check_shared_mesh(folder):
+    """Ranks share the mesh of a solid: resumed on as many ranks to the bit, and refused on another number."""
+    scene = ["bracket_and_cables.prm", *entries(Time__End=1, Output__Checkpoint_interval=0.1, Partition__Number_of_substructures=4)]
+    reference, own = folder / "shared_reference", folder / "shared"
+    result = run(reference, scene, 2)
+    expect("shared mesh: the reference runs", result.returncode == 0, result.stderr)
+    kill_after_checkpoint(own, scene, 2)
+    result = run(own, [*scene, "--resume"])
+    expect("shared mesh: one rank", result.returncode == 1 and "resume the run on 2 ranks" in result.stderr, result.stderr)
+    result = run(own, [*scene, "--resume"], 2)
+    expect("shared mesh: resumes", result.returncode == 0 and "Resumed after" in result.stdout, result.stderr + result.stdout)
+    expect_same("shared mesh", own, reference)
+
+
 def check_bad(folder):
     """Each change of the folder with its error; the folder is as before."""
     scene = [LINE, *entries(Time__End=0.5, Statistics__Window="", Output__Checkpoint_interval=0.1, Output__Field_interval=0)]
@@ -290,6 +304,7 @@ with tempfile.TemporaryDirectory() as name:
         check_killed(ranks, arguments.parallel, 2, two, rng)
         for scene, bound in (SCENES[0], 1e-9), (SCENES[2], 1e-8):
             check_other_ranks(ranks, scene, bound)
+        check_shared_mesh(ranks)
     if arguments.bad:
         check_bad(folder)
 

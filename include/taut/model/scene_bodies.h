@@ -90,6 +90,9 @@ namespace taut
       return custom_bodies[body].index;
     }
 
+    /// The ranks that share the mesh of a body; 0: none is shared.
+    unsigned int n_sharing_ranks() const;
+
     /// The index of the part with a place on the body; throws UserError if the place is not on the
     /// body. On a distributed body it is a place that the scene names.
     std::size_t index_at(std::size_t body, const Coordinates &place) const;

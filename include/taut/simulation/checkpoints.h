@@ -24,10 +24,12 @@ namespace taut
   public:
     /// Stores every @p interval [s] of a run in @p folder; 0: never. Messages go to @p log. The
     /// @p entries, by name, and the contents of the @p files have to be the same in a continued
-    /// run.
+    /// run, and so has the number of ranks that share meshes, on which parts of bodies depend; 0:
+    /// none are shared.
     Checkpoints(const std::string &folder, double interval, std::ostream &log,
                 const std::map<std::string, std::string> &entries = {},
-                const std::map<std::string, std::shared_ptr<const std::string>> &files = {});
+                const std::map<std::string, std::shared_ptr<const std::string>> &files = {},
+                unsigned int n_sharing_ranks = 0);
     ~Checkpoints() override;
 
     /// Reads the last checkpoint of the folder, if any. Throws UserError if it is unusable or a
