@@ -2,11 +2,10 @@
 #include "model/entry_path.h"
 
 #include "base/about_entry.h"
+#include "base/dealt_numbers.h"
 #include "base/text.h"
 #include "scene/entries.h"
 #include <taut/model/scene_bodies.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,6 +124,11 @@ namespace taut
       std::sort(result.begin(), result.end());
       return result;
     }
+
+    auto key(const std::size_t body, const Coordinates &place)
+    {
+      return std::make_tuple(body, place.x, place.y, place.z);
+    }
   } // namespace
 
   /// A cut between two parts, whose number is the next one.
@@ -159,23 +163,19 @@ namespace taut
   void SceneBodies::tie_distributed_parts(const std::string &name, const BodyParts &body,
                                           const CellsOfParts &cells)
   {
-    using Numbers = std::vector<unsigned int>;
     const DivisibleBody &divided = *body.division.body;
     const Communicator processes = divided.processes();
-    const auto exchange = [&](const std::map<unsigned int, Numbers> &sent)
-    { return dealii::Utilities::MPI::some_to_some(processes.of_mpi(), sent); };
+    const DealtNumbers dealt(processes, divided.cells().n_dofs());
 
     const auto copies = free_dofs(divided.cells(), cells);
-    std::map<unsigned int, Numbers> sent;
+    DealtNumbers::Messages sent;
     for (const auto &[dof, part, own_dof] : copies)
     {
-      const std::size_t rank =
-          static_cast<std::size_t>(dof) * processes.size() / divided.cells().n_dofs();
-      Numbers &list = sent[static_cast<unsigned int>(rank)];
+      std::vector<unsigned int> &list = sent[dealt.rank_of(dof)];
       list.insert(list.end(), {dof, part});
     }
     std::map<unsigned int, std::map<unsigned int, unsigned int>> parts_of; // of DoFs, with ranks
-    for (const auto &[rank, list] : exchange(sent))
+    for (const auto &[rank, list] : dealt.exchange(sent))
       for (std::size_t e = 0; e < list.size(); e += 2)
         parts_of[list[e]][list[e + 1]] = rank;
 
@@ -186,7 +186,7 @@ namespace taut
     processes.gather(n_own, n_of_rank);
     std::size_t first =
         std::accumulate(n_of_rank.begin(), n_of_rank.begin() + processes.rank(), std::size_t(0));
-    std::map<unsigned int, Numbers> told; // DoF, number of its first cut, number of parts, parts
+    DealtNumbers::Messages told; // DoF, number of its first cut, number of parts, parts
     for (const auto &[dof, parts] : parts_of)
     {
       std::set<unsigned int> ranks;
@@ -196,7 +196,7 @@ namespace taut
       {
         if (parts.size() == 1)
           continue;
-        Numbers &list = told[rank];
+        std::vector<unsigned int> &list = told[rank];
         list.insert(list.end(), {dof, static_cast<unsigned int>(first),
                                  static_cast<unsigned int>(parts.size())});
         for (const auto &[part, other] : parts)
@@ -214,7 +214,7 @@ namespace taut
                  : 0u;
     };
     const std::size_t before = n_cuts_of_all;
-    for (const auto &[rank, list] : exchange(told))
+    for (const auto &[rank, list] : dealt.exchange(told))
       for (std::size_t e = 0; e < list.size(); e += 3 + list[e + 2])
       {
         const unsigned int dof = list[e], *const parts = &list[e + 3];
@@ -234,28 +234,24 @@ namespace taut
   /// at a node between them, the first part counts.
   void SceneBodies::find_places(const Scene &scene)
   {
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+    std::vector<double> parts; // with another sign, so that the largest is that of the first part
     const auto note = [&](const Attachment &at)
     {
       if (at.kind != Attachment::Kind::body)
         return;
       const Partition::Division &division = custom_bodies[at.index].division;
-      if (!division.body || !division.body->is_distributed())
+      if (!division.body || !division.body->is_distributed() ||
+          !part_of_place.emplace(key(at.index, at.place), parts.size()).second)
         return;
-      const auto [known, is_new] = part_of_place.emplace(
-          std::make_tuple(at.index, at.place.x, at.place.y, at.place.z), std::nullopt);
-      if (!is_new)
-        return;
-      double found = std::numeric_limits<double>::infinity();
+      parts.push_back(-nowhere);
       try
       {
-        found = division.part[division.body->cell_at(at.place)];
+        parts.back() = -static_cast<double>(division.part[division.body->cell_at(at.place)]);
       }
       catch (const UserError &) // other ranks may have it
       {
       }
-      found = -communicator().max(-found);
-      if (std::isfinite(found))
-        known->second = static_cast<std::size_t>(found);
     };
     for (const Link &link : scene.links)
     {
@@ -266,6 +262,14 @@ namespace taut
       note(load.target);
     for (const Probe &probe : scene.probes)
       note(probe.point);
+    if (parts.empty())
+      return;
+    communicator().max(parts);
+    for (auto &[place, part] : part_of_place)
+      if (const double found = parts[*part]; std::isfinite(found))
+        part = static_cast<std::size_t>(-found);
+      else
+        part = std::nullopt;
   }
 
   unsigned int SceneBodies::n_sharing_ranks() const
@@ -283,7 +287,7 @@ namespace taut
       return 0;
     if (!division.body->is_distributed())
       return division.part[division.body->cell_at(place)];
-    const auto known = part_of_place.find(std::make_tuple(body, place.x, place.y, place.z));
+    const auto known = part_of_place.find(key(body, place));
     if (known == part_of_place.end() || !known->second)
       throw UserError(to_text("the point ", place.x, ' ', place.y,
                               division.body->cells().dim == 3 ? to_text(' ', place.z) : "",

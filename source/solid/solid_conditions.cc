@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/dealt_numbers.h"
 #include "base/text.h"
 #include "substructure/distributed_mesh.h"
 #include <taut/base/exceptions.h>
 #include <taut/solid/solid_conditions.h>
 #include <taut/substructure/fe_body.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <deal.II/fe/fe_values.h>
 
@@ -134,34 +133,30 @@ namespace taut
   template <int dim>
   void SolidConditions<dim>::share(const SolidMesh<dim> &mesh, Held &held) const
   {
-    const auto rank_of =
-        [n = mesh.dof_handler().n_dofs(), n_ranks = mesh.processes().size()](const std::size_t dof)
-    { return static_cast<unsigned int>(dof * n_ranks / n); };
-    const auto exchange = [&](const std::map<unsigned int, std::vector<unsigned int>> &sent)
-    { return dealii::Utilities::MPI::some_to_some(mesh.processes().of_mpi(), sent); };
+    const DealtNumbers dealt(mesh.processes(), mesh.dof_handler().n_dofs());
     const auto append = [](std::vector<unsigned int> &list, const unsigned int dof,
                            const std::pair<const unsigned int, unsigned int> &by) {
       list.insert(list.end(), {dof, by.first, by.second});
     };
 
-    std::map<unsigned int, std::vector<unsigned int>> found, wanted;
+    DealtNumbers::Messages found, wanted;
     for (const auto &[dof, conditions] : held)
       for (const auto &by : conditions)
-        append(found[rank_of(dof)], dof, by);
+        append(found[dealt.rank_of(dof)], dof, by);
     for (const auto dof : FEBody<dim>::part_dofs(mesh.cells(), all))
-      wanted[rank_of(dof)].push_back(dof);
+      wanted[dealt.rank_of(dof)].push_back(dof);
     std::map<dealii::types::global_dof_index, std::map<unsigned int, unsigned int>> collected;
-    for (const auto &[rank, list] : exchange(found))
+    for (const auto &[rank, list] : dealt.exchange(found))
       for (std::size_t e = 0; e < list.size(); e += 3)
         collected[list[e]].emplace(list[e + 1], list[e + 2]);
-    std::map<unsigned int, std::vector<unsigned int>> answers;
-    for (const auto &[rank, dofs] : exchange(wanted))
+    DealtNumbers::Messages answers;
+    for (const auto &[rank, dofs] : dealt.exchange(wanted))
       for (const unsigned int dof : dofs)
         if (const auto known = collected.find(dof); known != collected.end())
           for (const auto &by : known->second)
             append(answers[rank], dof, by);
     held.clear();
-    for (const auto &[rank, list] : exchange(answers))
+    for (const auto &[rank, list] : dealt.exchange(answers))
       for (std::size_t e = 0; e < list.size(); e += 3)
         held[list[e]].emplace(list[e + 1], list[e + 2]);
   }
