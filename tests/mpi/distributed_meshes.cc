@@ -173,6 +173,47 @@ end
 )" + cube_at_rest;
   }
 
+  /// A square in a file under its weight, with a spring.
+  std::string square_of_file(const std::string &path)
+  {
+    return R"(
+set Generator = network
+set Bodies    = square
+set Gravity   = 3, -9.81
+subsection Body square
+  set Type             = solid
+  set Young's modulus  = 1e7
+  set Poisson's ratio  = 0.3
+  set Density          = 2000
+  set Fixed boundaries = 1
+  subsection Mesh
+    set File = )" +
+           path + R"(
+  end
+end
+subsection Network
+  set Links = spring
+  subsection Link spring
+    set Type      = stop
+    set From      = ground
+    set To        = square @ 1, 0
+    set Direction = 0, 1
+    set Stiffness = 1e6
+  end
+end
+subsection Output
+  set Probes = corner
+  subsection Probe corner
+    set Point     = square @ 1, 1
+    set Direction = 0, 1
+  end
+end
+subsection Time
+  set End = 0
+end
+)";
+  }
+
   /// A membrane of bilinear elements on the unit square, held on its rim: a user's body with a
   /// user's triangulation, which is distributed if the ranks may share it.
   class MembraneType : public taut::BodyType
@@ -391,6 +432,22 @@ TEST(Ranks, distributed_meshes_of_files_and_of_users)
   expect_shared(cube_of_tetrahedra(file.path()), {"Partition/Number of substructures=6"});
   for (const std::string form : {"assembled dense", "matrix-free"})
     expect_same("membrane, " + form, membrane_over_stop, 7, {"Solver/Interface operator=" + form});
+}
+
+// Claim: a DoF that is held on the cells of one rank alone is held on those of others, too.
+// Expected: a square that is held along half of two of its sides, up to where ranks meet; as above.
+TEST(Ranks, distributed_meshes_are_held_where_another_rank_has_the_boundary)
+{
+  dealii::Triangulation<2> square;
+  dealii::GridGenerator::hyper_cube(square);
+  square.refine_global(3);
+  for (const auto &cell : square.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+      if (const dealii::Point<2> x = cell->face(f)->center(); cell->at_boundary(f))
+        cell->face(f)->set_boundary_id(std::min(x[0], x[1]) < 1e-9 && x[0] + x[1] < .5 ? 1 : 2);
+  for (const unsigned int n_parts : {4u, 7u})
+    expect_same(std::to_string(n_parts) + " parts of a square",
+                square_of_file(MeshFile(square).path()), n_parts);
 }
 
 // Claim: mistakes that one rank sees alone end on all ranks with the message of one process.

@@ -81,7 +81,7 @@ namespace verification
 subsection Output
   set Probes = corner
   subsection Probe corner
-    set Point     = cube @ 0, 0, 1
+    set Point     = cube @ 1, 1, 1
     set Direction = 0, 0, 1
   end
 end
