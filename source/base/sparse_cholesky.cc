@@ -21,12 +21,20 @@ namespace taut
     std::stable_sort(order.begin(), order.end(),
                      [&](const std::size_t a, const std::size_t b)
                      { return position(a) < position(b); });
-    MatrixEntries sorted;
+    const auto is_next = [&](const std::size_t k)
+    { return k == 0 || position(order[k]) != position(order[k - 1]); };
+    std::size_t n = 0;
     for (std::size_t k = 0; k < order.size(); ++k)
-      if (k > 0 && position(order[k]) == position(order[k - 1]))
-        sorted.value.back() += value[order[k]];
-      else
+      n += is_next(k);
+    MatrixEntries sorted;
+    sorted.row.reserve(n);
+    sorted.column.reserve(n);
+    sorted.value.reserve(n);
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (is_next(k))
         sorted.add(row[order[k]], column[order[k]], value[order[k]]);
+      else
+        sorted.value.back() += value[order[k]];
     *this = std::move(sorted);
   }
 
@@ -245,7 +253,7 @@ namespace taut
 
     static constexpr std::size_t lanes = SparseHalves::lanes;
     cholmod_common common;
-    cholmod_sparse *matrix = nullptr; ///< lower triangle of the matrix factored last
+    cholmod_sparse *matrix = nullptr; ///< pattern of the lower triangle factored last
     cholmod_factor *factors = nullptr;
     cholmod_dense *result = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;
     std::vector<double> diagonal;
@@ -295,6 +303,7 @@ namespace taut
     w.matrix = matrix;
     if (w.factors)
       cholmod_factorize(matrix, w.factors, &w.common);
+    cholmod_sparse_xtype(CHOLMOD_PATTERN, matrix, &w.common);
     if (!w.factors || w.common.status < CHOLMOD_OK)
       fail(w.common, "factor a matrix");
     return w.first_bad_pivot(smallest_pivot);

@@ -83,9 +83,8 @@ namespace taut
     std::map<unsigned int, unsigned int> position;
     for (const unsigned int p : division.part)
       position.insert({p, 0});
-    if (const std::vector<unsigned int> &first = division.first_of_rank; !first.empty())
-      for (unsigned int p = first.front(); p < first.back(); ++p)
-        position.insert({p, 0});
+    for (const unsigned int p : division.parts)
+      position.insert({p, 0});
     for (auto &[p, at] : position)
     {
       at = part.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
 #include "mechanism/mechanism.h"
+#include "model/ranks_of_parts.h"
 #include "model/scene_part.h"
 #include "model/shared_parts.h"
 #include "scene/entries.h"
@@ -21,88 +22,6 @@ namespace taut
 {
   namespace
   {
-    bool is_divided(const Partition &partition, const std::size_t body)
-    {
-      return body < partition.bodies.size() && partition.bodies[body].body;
-    }
-
-    /// What the fullest rank may have above the mean for parts to be dealt in their order. A
-    /// choice: a tenth of the time for fewer neighbours.
-    constexpr double most_excess = .1;
-
-    /// The rank of each part, each mechanism and each custom body: stretches of their order, as
-    /// parts of near numbers are near each other, along wires and by METIS's bisections. Where this
-    /// is too uneven, the largest first, each to the rank with the fewest DoFs so far. Parts of
-    /// distributed bodies have their ranks.
-    std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
-                                        const std::vector<std::vector<std::size_t>> &mechanisms,
-                                        const unsigned int n_ranks)
-    {
-      std::vector<std::size_t> n_dofs(partition.n_parts, 0), load(n_ranks, 0);
-      std::map<std::size_t, unsigned int> fixed; // ranks of parts of distributed bodies
-      for (std::size_t i = 0; n_ranks > 1 && i < scene.wires.size(); ++i)
-      {
-        const std::vector<Partition::Piece> &pieces = partition.wires[i];
-        const std::size_t n_nodes = grid(scene, i).size();
-        for (std::size_t p = 0; p < pieces.size(); ++p)
-          n_dofs[pieces[p].part] +=
-              scene.wires[i].n_dofs_per_node() *
-              ((p + 1 < pieces.size() ? pieces[p + 1].first + 1 : n_nodes) - pieces[p].first);
-      }
-      for (const std::vector<std::size_t> &members : mechanisms)
-        n_dofs.push_back(members.size());
-      for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (!is_divided(partition, i))
-          n_dofs.push_back(scene.bodies[i].type->n_dofs());
-        else
-        {
-          n_dofs.push_back(0);
-          const Partition::Division &division = partition.bodies[i];
-          const BodyCells &cells = division.body->cells();
-          if (division.first_of_rank.empty())
-            for (std::size_t c = 0; n_ranks > 1 && c < cells.size(); ++c)
-              n_dofs[division.part[c]] += cells.n_dofs() / cells.size() + 1;
-          for (unsigned int r = 0; r + 1 < division.first_of_rank.size(); ++r)
-          {
-            load[r] += cells.n_dofs() / n_ranks;
-            for (unsigned int part = division.first_of_rank[r];
-                 part < division.first_of_rank[r + 1]; ++part)
-              fixed[part] = r;
-          }
-        }
-
-      std::vector<unsigned int> rank(n_dofs.size(), 0);
-      for (const auto &[part, r] : fixed)
-        rank[part] = r;
-      const double mean = std::accumulate(n_dofs.begin(), n_dofs.end(), 0.) / n_ranks;
-      if (fixed.empty())
-      {
-        double before = 0.;
-        for (std::size_t part = 0; mean > 0. && part < rank.size(); before += n_dofs[part++])
-        {
-          rank[part] =
-              std::min(n_ranks - 1, static_cast<unsigned int>((before + .5 * n_dofs[part]) / mean));
-          load[rank[part]] += n_dofs[part];
-        }
-        if (*std::max_element(load.begin(), load.end()) <= (1. + most_excess) * mean)
-          return rank;
-        std::fill(load.begin(), load.end(), 0);
-      }
-      std::vector<std::size_t> order(n_dofs.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(), order.end(),
-                       [&](const std::size_t a, const std::size_t b)
-                       { return n_dofs[a] > n_dofs[b]; });
-      for (const std::size_t part : order)
-      {
-        if (fixed.count(part) != 0)
-          continue;
-        rank[part] = std::min_element(load.begin(), load.end()) - load.begin();
-        load[rank[part]] += n_dofs[part];
-      }
-      return rank;
-    }
-
     /// A piece of the wire of a wire_part(), new or from the shared parts.
     std::shared_ptr<Substructure> make_piece(const Scene &part, const WireMotion motion,
                                              const std::vector<double> &nodes,
@@ -135,7 +54,7 @@ namespace taut
   {
     const auto mechanisms = connected_masses(scene);
     const std::vector<unsigned int> owner =
-        share_out(scene, partition, mechanisms, processes.size());
+        ranks_of_parts(scene, partition, mechanisms, processes.size());
     // Places in the list at first, then indices.
     std::vector<NewBody> list;
     for (std::size_t i = 0; i < scene.wires.size(); ++i)

@@ -2,6 +2,7 @@
 #include "partition/cell_parts.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace taut
@@ -45,19 +46,34 @@ namespace taut
     }
   } // namespace
 
-  std::vector<std::map<unsigned int, unsigned int>> cell_neighbours(const BodyCells &cells)
+  void visit_neighbours(const BodyCells &cells,
+                        const std::function<void(unsigned int, unsigned int, unsigned int)> &visit)
   {
-    std::vector<std::vector<unsigned int>> at_dof(cells.n_dofs());
+    // Cells at DoF d: at_dof[begin[d]] to at_dof[begin[d + 1] - 1], ascending.
+    std::vector<std::size_t> begin(cells.is_determined.size() + 1, 0);
+    for (const unsigned int dof : cells.dofs)
+      ++begin[dof + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::size_t> next = begin;
+    std::vector<unsigned int> at_dof(cells.dofs.size()), lower;
     for (unsigned int c = 0; c < cells.size(); ++c)
+    {
+      lower.clear();
       for (std::size_t e = cells.begin[c]; e < cells.begin[c + 1]; ++e)
-        at_dof[cells.dofs[e]].push_back(c);
-    std::vector<std::map<unsigned int, unsigned int>> result(cells.size());
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      for (std::size_t e = cells.begin[c]; e < cells.begin[c + 1]; ++e)
-        for (const unsigned int other : at_dof[cells.dofs[e]])
-          if (other != c)
-            ++result[c][other];
-    return result;
+      {
+        const unsigned int dof = cells.dofs[e];
+        lower.insert(lower.end(), at_dof.begin() + static_cast<std::ptrdiff_t>(begin[dof]),
+                     at_dof.begin() + static_cast<std::ptrdiff_t>(next[dof]));
+        at_dof[next[dof]++] = c;
+      }
+      std::sort(lower.begin(), lower.end());
+      for (auto first = lower.begin(); first != lower.end();)
+      {
+        const auto last = std::upper_bound(first, lower.end(), *first);
+        visit(c, *first, static_cast<unsigned int>(last - first));
+        first = last;
+      }
+    }
   }
 
   void connect_parts(const BodyCells &cells, std::vector<unsigned int> &part, unsigned int &n_parts)

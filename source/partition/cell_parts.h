@@ -4,13 +4,15 @@
 
 #include <taut/scene/partition.h>
 
-#include <map>
+#include <functional>
 #include <vector>
 
 namespace taut
 {
-  /// For each cell the cells with common DoFs, and the number of these DoFs.
-  std::vector<std::map<unsigned int, unsigned int>> cell_neighbours(const BodyCells &cells);
+  /// Hands each pair of cells with common DoFs over, the second one lower, and the number of these
+  /// DoFs.
+  void visit_neighbours(const BodyCells &cells,
+                        const std::function<void(unsigned int, unsigned int, unsigned int)> &visit);
 
   /**
    * Makes each part connected by faces of its cells: a part whose groups of cells touch in a corner

@@ -49,20 +49,18 @@ namespace taut
     class Graph
     {
     public:
-      std::size_t size() const { return neighbours.size(); }
+      std::size_t size() const { return work.size(); }
 
       void add_vertices(const std::size_t n, const idx_t work_of_each)
       {
-        neighbours.resize(size() + n);
-        work.resize(size(), work_of_each);
+        work.resize(size() + n, work_of_each);
       }
 
+      /// Weights of the same two vertices add.
       void connect(const std::size_t a, const std::size_t b, const idx_t weight)
       {
-        if (a == b)
-          return;
-        neighbours[a][b] += weight;
-        neighbours[b][a] += weight;
+        if (a != b)
+          edges.push_back({static_cast<idx_t>(a), static_cast<idx_t>(b), weight});
       }
 
       double total_work() const { return std::accumulate(work.begin(), work.end(), 0.); }
@@ -71,19 +69,20 @@ namespace taut
       std::vector<idx_t> parts(idx_t n_parts) const;
 
     private:
-      std::vector<std::map<idx_t, idx_t>> neighbours;
+      struct Edge
+      {
+        idx_t a, b, weight;
+      };
+      std::vector<Edge> edges;
       std::vector<idx_t> work; ///< of a vertex: its DoFs
     };
 
     void add_cells(const BodyCells &cells, Graph &graph)
     {
-      const auto pairs = cell_neighbours(cells);
       const std::size_t begin = graph.size();
       graph.add_vertices(cells.size(), std::max<idx_t>(1, cells.n_dofs() / cells.n_cells()));
-      for (std::size_t c = 0; c < pairs.size(); ++c)
-        for (const auto &[other, n_shared] : pairs[c])
-          if (other < c)
-            graph.connect(begin + c, begin + other, element_weight * n_shared);
+      visit_neighbours(cells, [&](const unsigned int a, const unsigned int b, const unsigned int n)
+                       { graph.connect(begin + a, begin + b, element_weight * n); });
     }
 
     /// The grid nodes of all wires, and the cells of all bodies that can be cut, as vertices of one
@@ -183,19 +182,39 @@ namespace taut
 
     std::vector<idx_t> Graph::parts(idx_t n_parts) const
     {
-      idx_t n = neighbours.size();
+      idx_t n = size();
       std::vector<idx_t> part(n, 0);
       if (n_parts <= 1)
         return part;
-      std::vector<idx_t> offset = {0}, adjacent, weight, vertex_weight = work;
-      for (const auto &list : neighbours)
+      std::vector<std::size_t> end(n + 1, 0);
+      for (const Edge &edge : edges)
       {
-        for (const auto &[node, w] : list)
-        {
-          adjacent.push_back(node);
-          weight.push_back(w);
-        }
-        offset.push_back(adjacent.size());
+        ++end[edge.a + 1];
+        ++end[edge.b + 1];
+      }
+      std::partial_sum(end.begin(), end.end(), end.begin());
+      std::vector<std::pair<idx_t, idx_t>> neighbours(end.back()); // and weights, by vertices
+      for (const Edge &edge : edges)
+      {
+        neighbours[end[edge.a]++] = {edge.b, edge.weight};
+        neighbours[end[edge.b]++] = {edge.a, edge.weight};
+      }
+      std::vector<idx_t> offset = {0}, adjacent, weight, vertex_weight = work;
+      auto next = neighbours.begin();
+      for (idx_t vertex = 0; vertex < n; ++vertex)
+      {
+        const auto first = next;
+        next = neighbours.begin() + static_cast<std::ptrdiff_t>(end[vertex]);
+        std::sort(first, next);
+        for (auto neighbour = first; neighbour != next; ++neighbour)
+          if (neighbour != first && neighbour->first == adjacent.back())
+            weight.back() += neighbour->second;
+          else
+          {
+            adjacent.push_back(neighbour->first);
+            weight.push_back(neighbour->second);
+          }
+        offset.push_back(static_cast<idx_t>(adjacent.size()));
       }
       idx_t options[METIS_NOPTIONS], n_constraints = 1, cut = 0;
       METIS_SetDefaultOptions(options);
@@ -226,9 +245,8 @@ namespace taut
       return static_cast<unsigned int>(std::max(1., std::round(n_parts * share)));
     }
 
-    /// Each rank parts its own cells of a distributed body, into its share of @p n_wanted parts,
-    /// which are numbered from @p n_parts on.
-    void part_own_cells(Partition::Division &division, const double n_wanted, unsigned int &n_parts)
+    /// Each rank parts its own cells of a distributed body, into its share of @p n_wanted parts.
+    void part_own_cells(const double n_wanted, Partition::Division &division, Partition &partition)
     {
       const BodyCells &cells = division.body->cells();
       const auto n_own = static_cast<double>(cells.size());
@@ -249,11 +267,17 @@ namespace taut
       std::vector<std::size_t> n_of_rank;
       const Communicator processes = division.body->processes();
       processes.gather(n, n_of_rank);
-      division.first_of_rank = {n_parts};
-      for (const std::size_t n_there : n_of_rank)
-        division.first_of_rank.push_back(n_parts += n_there);
-      for (unsigned int &p : division.part)
-        p = division.first_of_rank[processes.rank()] + number.at(p);
+      for (unsigned int rank = 0; rank < n_of_rank.size(); ++rank)
+      {
+        if (rank == processes.rank())
+          for (unsigned int &p : division.part)
+            p = partition.n_parts + number.at(p);
+        for (std::size_t p = 0; p < n_of_rank[rank]; ++p)
+        {
+          division.parts.push_back(partition.n_parts);
+          partition.rank_of_part[partition.n_parts++] = rank;
+        }
+      }
     }
 
     Partition by_metis(const Scene &scene, const unsigned int n_parts)
@@ -304,9 +328,8 @@ namespace taut
       }
       for (Partition::Division &division : partition.bodies)
         if (division.body && division.body->is_distributed())
-          part_own_cells(division,
-                         n_parts * static_cast<double>(division.body->cells().n_dofs()) / work,
-                         partition.n_parts);
+          part_own_cells(n_parts * static_cast<double>(division.body->cells().n_dofs()) / work,
+                         division, partition);
       return partition;
     }
 

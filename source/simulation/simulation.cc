@@ -7,6 +7,7 @@
 #include "model/check_joints.h"
 #include "model/contact_mass.h"
 #include "model/form_finding.h"
+#include "model/ranks_of_parts.h"
 #include "model/scene_constraints.h"
 #include "model/shared_parts.h"
 #include "output/accuracy_report.h"
@@ -56,7 +57,8 @@ namespace taut
                          const Communicator &processes, SharedParts *const shared)
       : parameters(parameters), log(log), processes(processes),
         model(prepare_scene(parameters, processes, shared)),
-        bodies(model, make_partition(model, choose_parts()), processes, shared),
+        bodies(model, with_own_cells(model, make_partition(model, choose_parts()), processes),
+               processes, shared),
         grounded_links(check_held_ends(model, bodies)), links(make_constraints()),
         figures(parameters.statistics, model, links)
   {

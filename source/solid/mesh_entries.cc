@@ -10,13 +10,11 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
-#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/distributed/tria.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <boost/functional/hash.hpp>
 
@@ -137,6 +135,9 @@ namespace taut
     }
 
 #ifdef DEAL_II_WITH_P4EST
+    /// Cells of a mesh that need some GB on each rank while it is made whole.
+    constexpr double least_cells_for_p4est = 1e6;
+
     /// Once it is initialised, p4est tells what it does on the standard output no more.
     void start_p4est()
     {
@@ -185,6 +186,12 @@ namespace taut
     prm.add_parameter("Refine where", where,
                       "Formula of x, y, z at the centre of a cell, positive where it is refined; t "
                       "is the number of local refinements so far, e.g. '0.1/2^t-sqrt(x^2+y^2)'");
+    prm.add_parameter(
+        "Distribution", distribution,
+        "On several ranks, of a solid that is cut into a part for each of them. METIS: every rank "
+        "makes the mesh, and keeps its parts, which are those of one process. p4est: ranks refine "
+        "their own cells, and part them. automatic: p4est from a million cells on",
+        Patterns::Selection("automatic|METIS|p4est"));
     prm.add_parameter("Shift", shift, "Added to all points, x, y or x, y, z [m]");
     prm.leave_subsection();
   }
@@ -214,7 +221,10 @@ namespace taut
   template <int dim>
   std::unique_ptr<dealii::Triangulation<dim>> MeshEntries::make(const std::string &origin) const
   {
-    auto cells = std::make_unique<dealii::Triangulation<dim>>();
+    // As p4est does, so that the mesh is the same on any number of ranks, and nodes on which
+    // hanging nodes depend do not hang.
+    auto cells = std::make_unique<dealii::Triangulation<dim>>(
+        dealii::Triangulation<dim>::limit_level_difference_at_vertices);
     make_coarse(*cells, origin);
     refine(*cells, section_of(origin));
     return cells;
@@ -225,52 +235,40 @@ namespace taut
   MeshEntries::make_distributed(const std::string &origin, const Communicator &processes,
                                 const unsigned int degree, const double least_dofs) const
   {
-    namespace parallel = dealii::parallel;
-    // p4est would refine more cells, so that neighbours at a corner differ by one level.
-    if (local_refinements > 0)
+    if (distribution == "METIS")
       return nullptr;
+#ifdef DEAL_II_WITH_P4EST
+    const bool is_asked_for = distribution == "p4est";
+    const auto n = static_cast<double>(refinements);
     dealii::Triangulation<dim> coarse;
     make_coarse(coarse, origin);
-    // A box of cells has more nodes than cells.
-    const bool has_boxes = coarse.all_reference_cells_are_hyper_cube();
-    const double n_nodes = has_boxes ? coarse.n_active_cells() *
-                                           std::pow(std::pow(2., static_cast<double>(refinements)) *
-                                                        static_cast<double>(degree),
-                                                    dim)
-                                     : coarse.n_used_vertices();
-    if (dim * n_nodes < least_dofs)
-      return nullptr;
-    std::unique_ptr<parallel::TriangulationBase<dim>> cells;
-    if (has_boxes && refinements > 0)
+    if (!coarse.all_reference_cells_are_hyper_cube())
     {
-#ifdef DEAL_II_WITH_P4EST
-      start_p4est();
-      cells = std::make_unique<parallel::distributed::Triangulation<dim>>(processes.of_mpi());
-      make_coarse(*cells, origin);
-      refine(*cells, section_of(origin));
-#else
+      if (is_asked_for)
+        throw EntryError(section_of(origin) + "Distribution",
+                         "p4est takes quadrilaterals and hexahedra; take METIS");
       return nullptr;
-#endif
     }
-    else
-    {
-      if (coarse.n_active_cells() < processes.size())
-        return nullptr;
-      refine(coarse, section_of(origin)); // which refuses entries for other cells
-      dealii::GridTools::partition_triangulation(processes.size(), coarse);
-      auto distributed =
-          std::make_unique<parallel::fullydistributed::Triangulation<dim>>(processes.of_mpi());
-      for (const auto id : coarse.get_manifold_ids())
-        if (id != dealii::numbers::flat_manifold_id)
-          distributed->set_manifold(id, coarse.get_manifold(id));
-      distributed->create_triangulation(
-          dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
-              coarse, processes.of_mpi()));
-      cells = std::move(distributed);
-    }
+    const double n_cells = coarse.n_active_cells() * std::pow(2., dim * n),
+                 n_nodes = coarse.n_active_cells() *
+                           std::pow(std::pow(2., n) * static_cast<double>(degree), dim);
+    if (dim * n_nodes < least_dofs ||
+        (!is_asked_for && (refinements == 0 || n_cells < least_cells_for_p4est)))
+      return nullptr;
+    start_p4est();
+    auto cells =
+        std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(processes.of_mpi());
+    make_coarse(*cells, origin);
+    refine(*cells, section_of(origin));
     if (processes.any(cells->n_locally_owned_active_cells() == 0))
       return nullptr;
     return cells;
+#else
+    if (distribution == "p4est")
+      throw EntryError(section_of(origin) + "Distribution",
+                       "this deal.II was built without p4est; take METIS");
+    return nullptr;
+#endif
   }
 
   template <int dim>

@@ -26,10 +26,10 @@ namespace taut
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>> make(const std::string &origin) const;
 
-    /// The same mesh, distributed over the ranks: by p4est if it is refined, and else by METIS.
-    /// Null if it is refined locally, if a rank would get no cell, or if it has fewer than @p
-    /// least_dofs DoFs for elements of this degree, for which a number below the true one is taken.
-    /// Called by all ranks together.
+    /// The same mesh, refined by p4est on the rank of each cell. Null if that neither pays nor is
+    /// asked for, if a rank would get no cell, or if it has fewer than @p least_dofs DoFs for
+    /// elements of this degree, for which a number below the true one is taken. Throws EntryError
+    /// for a mesh that p4est does not take. Called by all ranks together.
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>>
     make_distributed(const std::string &origin, const Communicator &processes, unsigned int degree,
@@ -52,6 +52,7 @@ namespace taut
     std::string file, generator = "subdivided_hyper_rectangle", arguments = "4, 4 : 0, 0 : 1, 1",
                       where, curved;
     unsigned int refinements = 0, local_refinements = 0;
+    std::string distribution = "automatic";
     std::vector<double> shift;
   };
 

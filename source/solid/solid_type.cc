@@ -3,6 +3,7 @@
 
 #include "base/about_entry.h"
 #include "solid/divisible_solid.h"
+#include "substructure/distributed_mesh.h"
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
 
@@ -23,6 +24,11 @@ namespace taut
       virtual std::unique_ptr<Substructure> make(const BodySetting &setting) const = 0;
       virtual ContactSurface surface(const std::vector<unsigned int> &boundaries) const = 0;
       virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const = 0;
+
+      /// As mesh_of_rank(); null: the mesh stays whole.
+      virtual std::unique_ptr<SolidOf> of_rank(const Communicator &processes,
+                                               const std::vector<unsigned int> &rank_of_cell,
+                                               std::vector<unsigned int> &numbers) const = 0;
     };
 
     template <int dim>
@@ -31,7 +37,7 @@ namespace taut
     public:
       SolidIn(const SolidEntries &entries,
               std::unique_ptr<dealii::Triangulation<dim>> triangulation)
-          : entries(entries),
+          : entries(entries), cells(*triangulation),
             mesh(std::make_shared<SolidMesh<dim>>(std::move(triangulation), entries.degree))
       {
       }
@@ -42,7 +48,7 @@ namespace taut
         return std::make_unique<SolidIn>(entries, entries.mesh.template make<dim>(origin));
       }
 
-      /// With a mesh of so many DoFs, or more, distributed over the ranks; null: it is not.
+      /// With a mesh of so many DoFs, or more, that the ranks refine together; null: they do not.
       static std::unique_ptr<SolidOf> distributed(const SolidEntries &entries,
                                                   const std::string &origin,
                                                   const Communicator &processes,
@@ -75,8 +81,17 @@ namespace taut
         return std::make_shared<DivisibleSolid<dim>>(mesh, options);
       }
 
+      std::unique_ptr<SolidOf> of_rank(const Communicator &processes,
+                                       const std::vector<unsigned int> &rank_of_cell,
+                                       std::vector<unsigned int> &numbers) const override
+      {
+        auto own = mesh_of_rank(cells, processes, rank_of_cell, numbers);
+        return own ? std::make_unique<SolidIn>(entries, std::move(own)) : nullptr;
+      }
+
     private:
       const SolidEntries &entries;
+      dealii::Triangulation<dim> &cells; ///< of the mesh
       const std::shared_ptr<const SolidMesh<dim>> mesh;
     };
 
@@ -106,6 +121,9 @@ namespace taut
       void distribute(const BodySetting &setting, const Communicator &processes,
                       const std::size_t least_dofs) const override
       {
+        if (is_distributed) // by an earlier run
+          made.reset();
+        is_distributed = false;
         if (!entries.can_be_distributed() || (entries.dimension == 2 && least_dofs > 0))
           return;
         const std::string &origin = setting.origin;
@@ -122,6 +140,21 @@ namespace taut
           made = std::move(solid);
           is_distributed = true;
         }
+      }
+
+      OwnCells keep_own_cells(const BodySetting &setting, const Communicator &processes,
+                              const std::vector<unsigned int> &rank_of_cell) const override
+      {
+        OwnCells result;
+        if (!entries.can_be_distributed())
+          return result;
+        if (auto own = made->of_rank(processes, rank_of_cell, result.numbers))
+        {
+          made = std::move(own);
+          is_distributed = true;
+          result.body = division(setting);
+        }
+        return result;
       }
 
       double largest_turn() const override { return entries.largest_turn; }

@@ -3,13 +3,18 @@
 
 #include <deal.II/base/config.h>
 
+#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/distributed/tria_base.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
+#include <map>
 
 namespace taut
 {
@@ -19,6 +24,40 @@ namespace taut
     if (dynamic_cast<const dealii::parallel::TriangulationBase<dim> *>(&triangulation))
       return Communicator(triangulation.get_communicator());
     return {};
+  }
+
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>>
+  mesh_of_rank(dealii::Triangulation<dim> &whole, const Communicator &processes,
+               const std::vector<unsigned int> &rank_of_cell, std::vector<unsigned int> &numbers)
+  {
+    auto result = std::make_unique<dealii::parallel::fullydistributed::Triangulation<dim>>(
+        processes.of_mpi());
+    for (const auto id : whole.get_manifold_ids())
+    {
+      if (id == dealii::numbers::flat_manifold_id)
+        continue;
+      const dealii::Manifold<dim> &manifold = whole.get_manifold(id);
+      if (dynamic_cast<const dealii::TransfiniteInterpolationManifold<dim> *>(&manifold))
+        return nullptr;
+      result->set_manifold(id, manifold);
+    }
+    std::map<dealii::CellId, unsigned int> number_of;
+    for (const auto &cell : whole.active_cell_iterators())
+    {
+      const unsigned int number = cell->active_cell_index();
+      cell->set_subdomain_id(rank_of_cell[number]);
+      if (rank_of_cell[number] == processes.rank())
+        number_of[cell->id()] = number;
+    }
+    result->create_triangulation(
+        dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
+            whole, processes.of_mpi()));
+    numbers.clear();
+    for (const auto &cell : result->active_cell_iterators())
+      if (cell->is_locally_owned())
+        numbers.push_back(number_of.at(cell->id()));
+    return result;
   }
 
   template <int dim>
@@ -130,6 +169,10 @@ namespace taut
   template std::pair<dealii::DoFHandler<1>::active_cell_iterator, dealii::Point<1>>
   cell_around(const dealii::DoFHandler<1> &, const dealii::Mapping<1> &, const dealii::Point<1> &);
   template Communicator processes_of(const dealii::Triangulation<2> &);
+  template std::unique_ptr<dealii::Triangulation<2>> mesh_of_rank(dealii::Triangulation<2> &,
+                                                                  const Communicator &,
+                                                                  const std::vector<unsigned int> &,
+                                                                  std::vector<unsigned int> &);
   template std::vector<dealii::DoFHandler<2>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<2> &);
   template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<2> &);
@@ -139,6 +182,10 @@ namespace taut
   template std::pair<dealii::DoFHandler<2>::active_cell_iterator, dealii::Point<2>>
   cell_around(const dealii::DoFHandler<2> &, const dealii::Mapping<2> &, const dealii::Point<2> &);
   template Communicator processes_of(const dealii::Triangulation<3> &);
+  template std::unique_ptr<dealii::Triangulation<3>> mesh_of_rank(dealii::Triangulation<3> &,
+                                                                  const Communicator &,
+                                                                  const std::vector<unsigned int> &,
+                                                                  std::vector<unsigned int> &);
   template std::vector<dealii::DoFHandler<3>::active_cell_iterator>
   own_cells_of(const dealii::DoFHandler<3> &);
   template dealii::AffineConstraints<double> hanging_nodes(const dealii::DoFHandler<3> &);

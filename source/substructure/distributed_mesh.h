@@ -13,6 +13,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,18 @@ namespace taut
   /// The ranks over which a triangulation is distributed; one process if it is not.
   template <int dim>
   Communicator processes_of(const dealii::Triangulation<dim> &triangulation);
+
+  /**
+   * The active cells of @p whole that @p rank_of_cell, for each of them, gives this rank, with
+   * those beside them, as a `parallel::fullydistributed::Triangulation`; null for a mesh with a
+   * TransfiniteInterpolationManifold, which needs all coarse cells. @p whole, the same on all
+   * ranks, gets the ranks as subdomains. @p numbers: of the cells of this rank among those of @p
+   * whole.
+   */
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>>
+  mesh_of_rank(dealii::Triangulation<dim> &whole, const Communicator &processes,
+               const std::vector<unsigned int> &rank_of_cell, std::vector<unsigned int> &numbers);
 
   /// The locally owned active cells of a DoFHandler: all of a serial triangulation.
   template <int dim>

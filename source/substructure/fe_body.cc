@@ -93,8 +93,7 @@ namespace taut
     std::sort(own_cells.begin(), own_cells.end());
     if (!options.cells.empty() || processes_of(handler.get_triangulation()).size() > 1)
       own_dofs = part_dofs(own_cells, constraints);
-    const unsigned int n = own_dofs.empty() ? handler.n_dofs() : own_dofs.size();
-    forms.resize(n);
+    const unsigned int n = n_rows = own_dofs.empty() ? handler.n_dofs() : own_dofs.size();
     check_matrix(mass, "mass matrix");
     check_matrix(stiffness, "stiffness matrix");
     if (!damping.empty())
@@ -112,11 +111,9 @@ namespace taut
       const dealii::types::global_dof_index dof = own_dofs.empty() ? i : own_dofs[i];
       const auto *entries =
           constraints.is_constrained(dof) ? constraints.get_constraint_entries(dof) : nullptr;
-      if (!entries || entries->empty())
-        forms[i].add(i, 1.);
-      else
+      if (entries)
         for (const auto &[j, weight] : *entries)
-          forms[i].add(index(j), weight);
+          dependences[i].add(index(j), weight);
       if (!constraints.is_constrained(dof))
         continue;
       const double value = constraints.get_inhomogeneity(dof);
@@ -144,11 +141,11 @@ namespace taut
   template <int dim>
   void FEBody<dim>::check_size(const std::size_t size, const std::string &what) const
   {
-    if (size != forms.size())
+    if (size != n_rows)
       throw UserError("body '" + name() + "': its " + what + " has size " + std::to_string(size) +
                       ", and " +
                       (own_dofs.empty() ? "its DoFHandler " : "the part of its DoFHandler ") +
-                      std::to_string(forms.size()) + " DoFs");
+                      std::to_string(n_rows) + " DoFs");
   }
 
   /// Checks that a matrix has the right size and is symmetric: y . A x = x . A y for two vectors
@@ -207,7 +204,7 @@ namespace taut
   template <int dim>
   bool FEBody<dim>::has_dof(const dealii::types::global_dof_index dof) const
   {
-    return own_dofs.empty() ? dof < forms.size()
+    return own_dofs.empty() ? dof < n_rows
                             : std::binary_search(own_dofs.begin(), own_dofs.end(), dof);
   }
 
@@ -219,7 +216,7 @@ namespace taut
     return std::lower_bound(own_dofs.begin(), own_dofs.end(), dof) - own_dofs.begin();
   }
 
-  /// T^T A T with the rows of T in `forms`, lower triangle.
+  /// T^T A T with the rows of T in `dependences`, lower triangle.
   template <int dim>
   void FEBody<dim>::set_matrix(const dealii::SparseMatrix<double> &source,
                                SymmetricMatrix &target) const
@@ -227,11 +224,17 @@ namespace taut
     for (unsigned int i = 0; i < source.m(); ++i)
       for (auto entry = source.begin(i); entry != source.end(i); ++entry)
       {
-        const LinearForm &a = forms[i], &b = forms[entry->column()];
-        for (std::size_t p = 0; p < a.index.size(); ++p)
-          for (std::size_t q = 0; q < b.index.size(); ++q)
-            if (a.index[p] >= b.index[q])
-              target.add(a.index[p], b.index[q], a.value[p] * b.value[q] * entry->value());
+        for_each_kept(i,
+                      [&](const unsigned int row, const double by_row)
+                      {
+                        for_each_kept(entry->column(),
+                                      [&](const unsigned int column, const double by_column)
+                                      {
+                                        if (row >= column)
+                                          target.add(row, column,
+                                                     by_row * by_column * entry->value());
+                                      });
+                      });
       }
   }
 
@@ -239,9 +242,10 @@ namespace taut
   template <int dim>
   void FEBody<dim>::condense(const dealii::Vector<double> &P, std::vector<double> &result) const
   {
-    for (std::size_t i = 0; i < forms.size(); ++i)
+    for (unsigned int i = 0; i < n_rows; ++i)
       if (P[i] != 0.)
-        forms[i].add_to(P[i], result);
+        for_each_kept(i, [&](const unsigned int kept, const double weight)
+                      { result[kept] += weight * P[i]; });
   }
 
   template <int dim>
@@ -268,12 +272,12 @@ namespace taut
   template <int dim>
   ConstrainedDof &FEBody<dim>::prescribed(const dealii::types::global_dof_index dof)
   {
-    const unsigned int own = has_dof(dof) ? index(dof) : forms.size();
+    const unsigned int own = has_dof(dof) ? index(dof) : n_rows;
     const auto found =
         std::lower_bound(constrained.begin(), constrained.end(), own,
                          [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
     if (!has_dof(dof) || found == constrained.end() || found->dof != own ||
-        forms[own].index != decltype(LinearForm::index){own})
+        dependences.count(own) != 0)
       throw UserError("body '" + name() + "': no constraint prescribes DoF " + std::to_string(dof));
     return *found;
   }
@@ -345,9 +349,9 @@ namespace taut
       {
         const double value = element.shape_value_component(i, unit, c) *
                              (element.n_components() == 1 ? along : direction[c]);
-        const LinearForm &form = forms[index(dofs[i])];
-        for (std::size_t p = 0; value != 0. && p < form.index.size(); ++p)
-          result.add(form.index[p], value * form.value[p]);
+        if (value != 0.)
+          for_each_kept(index(dofs[i]), [&](const unsigned int kept, const double weight)
+                        { result.add(kept, value * weight); });
       }
     return result;
   }
@@ -357,7 +361,10 @@ namespace taut
   {
     if (!has_dof(dof))
       throw UserError("body '" + name() + "' has no DoF " + std::to_string(dof));
-    return forms[index(dof)];
+    LinearForm result;
+    for_each_kept(index(dof),
+                  [&](const unsigned int kept, const double weight) { result.add(kept, weight); });
+    return result;
   }
 
   template <int dim>
@@ -365,7 +372,7 @@ namespace taut
   {
     dealii::Vector<double> result(handler.n_dofs());
     for (std::size_t i = 0; i < U.size(); ++i)
-      result[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
+      result[own_dofs.empty() ? i : own_dofs[i]] = value(i, U);
     return result;
   }
 

@@ -49,10 +49,10 @@ namespace taut
 
     /// Appends to each mode the relative work on it of the forces K u of each mode u. Returns the
     /// positions of these values.
-    std::vector<unsigned int> append_work(const SymmetricMatrix &K, const std::size_t n_dofs,
+    std::vector<unsigned int> append_work(const SymmetricMatrix &K, const std::size_t n_rows,
                                           Modes &modes)
     {
-      std::vector<double> diagonal(n_dofs, 0.);
+      std::vector<double> diagonal(n_rows, 0.);
       K.visit(
           [&](const unsigned int i, const unsigned int j, const double value)
           {
@@ -68,7 +68,7 @@ namespace taut
         double scale = 0.;
         for (std::size_t i = 0; i < mode.size(); ++i)
           scale += diagonal[i] * mode[i] * mode[i];
-        work.push_back(n_dofs + work.size());
+        work.push_back(n_rows + work.size());
         for (std::size_t m = 0; m < all.size(); ++m)
           modes[m].push_back(scale > 0. ? dot(all[m], force) / scale : 0.);
       }
@@ -92,8 +92,8 @@ namespace taut
     const unsigned int n_components = element.n_components();
     if (n_components != 1 && n_components != dim)
       return modes;
-    std::vector<dealii::Point<dim>> points(forms.size());
-    std::vector<unsigned int> component(forms.size(), n_components);
+    std::vector<dealii::Point<dim>> points(n_rows);
+    std::vector<unsigned int> component(n_rows, n_components);
     std::vector<dealii::types::global_dof_index> on_cell(element.n_dofs_per_cell());
     std::size_t n_known = 0;
     const auto note = [&](const Cell &cell)
@@ -112,13 +112,13 @@ namespace taut
     for (const Cell &cell : own_cells)
       note(cell);
     // Hanging nodes of a part depend on nodes of cells beside it.
-    if (n_known < forms.size())
+    if (n_known < n_rows)
       for (const auto &cell : handler.active_cell_iterators())
         if (!cell->is_artificial())
           note(cell);
     for (unsigned int c = 0; c < n_components; ++c)
-      modes.emplace_back(forms.size(), 0.);
-    for (unsigned int i = 0; i < forms.size(); ++i)
+      modes.emplace_back(n_rows, 0.);
+    for (unsigned int i = 0; i < n_rows; ++i)
       modes[component[i]][i] = 1.;
     if (n_components == 1)
       return modes;
@@ -132,8 +132,8 @@ namespace taut
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int b = a + 1; b < dim; ++b)
       {
-        modes.emplace_back(forms.size(), 0.);
-        for (unsigned int i = 0; i < forms.size(); ++i)
+        modes.emplace_back(n_rows, 0.);
+        for (unsigned int i = 0; i < n_rows; ++i)
           if (component[i] == a)
             modes.back()[i] = -(points[i] - middle)[b] / size;
           else if (component[i] == b)
@@ -152,14 +152,14 @@ namespace taut
   void FEBody<dim>::find_null_space(const Options &options)
   {
     Modes modes = candidates(options);
-    std::vector<char> is_constrained(forms.size(), 0);
+    std::vector<char> is_constrained(n_rows, 0);
     for (const ConstrainedDof &constraint : constrained)
       is_constrained[constraint.dof] = 1;
     std::vector<unsigned int> prescribed, kept;
-    for (unsigned int i = 0; i < forms.size(); ++i)
+    for (unsigned int i = 0; i < n_rows; ++i)
       if (!is_constrained[i])
         kept.push_back(i);
-      else if (forms[i].index == decltype(LinearForm::index){i})
+      else if (dependences.count(i) == 0)
         prescribed.push_back(i);
 
     unsigned int dof = 0;
@@ -171,11 +171,11 @@ namespace taut
         if (is_constrained[i])
           mode[i] = 0.;
     // Keeps only combinations that K does not resist: their forces do no work on any combination.
-    const std::vector<unsigned int> work = append_work(*K, forms.size(), modes);
+    const std::vector<unsigned int> work = append_work(*K, n_rows, modes);
     while (eliminate(modes, work, dof, pivot))
       ;
     for (std::vector<double> &mode : modes)
-      mode.resize(forms.size());
+      mode.resize(n_rows);
     while (eliminate(modes, kept, dof, pivot))
     {
       own_null_space.vectors.push_back(pivot);

@@ -13,12 +13,10 @@ namespace taut
 
   void CompressedMatrix::add(const unsigned int i, const unsigned int j, const double v)
   {
-    double *const entry = find(i, j);
-    if (!entry)
-      return added.add(i, j, v);
-    *entry += v;
-    if (i != j)
-      *find(j, i) += v;
+    if (double *const entry = find(std::max(i, j), std::min(i, j)))
+      *entry += v;
+    else
+      added.add(i, j, v);
   }
 
   void CompressedMatrix::set_zero()
@@ -27,7 +25,7 @@ namespace taut
     added = {};
   }
 
-  /// The entry (i, j) of the rows, or nullptr.
+  /// The entry (i, j <= i) of the rows, or nullptr.
   double *CompressedMatrix::find(const unsigned int i, const unsigned int j)
   {
     if (begin_row.empty())
@@ -43,34 +41,16 @@ namespace taut
       return;
     for (unsigned int i = 0; i + 1 < begin_row.size(); ++i)
       for (std::size_t e = begin_row[i]; e < begin_row[i + 1]; ++e)
-        if (column[e] <= i)
-          added.add(i, column[e], value[e]);
-    SymmetricEntries lower;
-    std::swap(lower, added);
-    lower.compress();
+        added.add(i, column[e], value[e]);
+    added.compress();
     begin_row.assign(n + 1, 0);
-    for (std::size_t k = 0; k < lower.size(); ++k)
-    {
-      ++begin_row[lower.row[k] + 1];
-      if (lower.row[k] != lower.column[k])
-        ++begin_row[lower.column[k] + 1];
-    }
+    for (const int row : added.row)
+      ++begin_row[row + 1];
     for (unsigned int i = 0; i < n; ++i)
       begin_row[i + 1] += begin_row[i];
-    column.resize(begin_row[n]);
-    value.resize(begin_row[n]);
-    std::vector<std::size_t> next(begin_row.begin(), begin_row.end() - 1);
-    const auto put = [&](const std::size_t i, const std::size_t j, const double v)
-    {
-      column[next[i]] = j;
-      value[next[i]++] = v;
-    };
-    for (std::size_t k = 0; k < lower.size(); ++k)
-    {
-      put(lower.row[k], lower.column[k], lower.value[k]);
-      if (lower.row[k] != lower.column[k])
-        put(lower.column[k], lower.row[k], lower.value[k]);
-    }
+    column.assign(added.column.begin(), added.column.end());
+    value = std::move(added.value);
+    added = {};
   }
 
   void CompressedMatrix::vmult_add(const double factor, const double *x, double *y) const
@@ -78,10 +58,17 @@ namespace taut
     compress();
     for (unsigned int i = 0; i < n; ++i)
     {
+      const double x_i = factor * x[i];
       double sum = 0.;
-      for (std::size_t e = begin_row[i]; e < begin_row[i + 1]; ++e)
+      std::size_t e = begin_row[i];
+      for (; e < begin_row[i + 1] && column[e] < i; ++e)
+      {
         sum += value[e] * x[column[e]];
+        y[column[e]] += value[e] * x_i;
+      }
       y[i] += factor * sum;
+      if (e < begin_row[i + 1])
+        y[i] += value[e] * x_i;
     }
   }
 
@@ -90,8 +77,7 @@ namespace taut
     compress();
     for (unsigned int i = 0; i < n; ++i)
       for (std::size_t e = begin_row[i]; e < begin_row[i + 1]; ++e)
-        if (column[e] <= i)
-          visitor(i, column[e], value[e]);
+        visitor(i, column[e], value[e]);
   }
 
   std::unique_ptr<SymmetricMatrix> CompressedMatrix::clone() const

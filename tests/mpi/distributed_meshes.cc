@@ -24,8 +24,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
-
+#include <array>
 #include <memory>
+#include <regex>
 
 using namespace verification;
 
@@ -56,9 +57,44 @@ namespace
     check("force", one.force, many.force, 1e-7);
   }
 
+  /// The message that ends a run; empty: none does.
+  std::string error_of(const std::string &text, const Overrides &overrides,
+                       const taut::Communicator &processes)
+  {
+    std::string message;
+    try
+    {
+      record_nodes_of(text, overrides, processes);
+    }
+    catch (const taut::UserError &e)
+    {
+      message = e.what();
+    }
+    const std::size_t place = message.find("scene.prm"); // in a folder of its own
+    return place == std::string::npos ? message : message.substr(place);
+  }
+
+  /// Iterations of conjugate gradients and systems, of which the log tells.
+  std::array<int, 2> iterations(const NodeRecord &record)
+  {
+    static const std::regex said("(\\d+) iterations? of conjugate gradients in (\\d+) systems?");
+    std::smatch parts;
+    if (!std::regex_search(record.log, parts, said))
+      return {0, 0};
+    return {std::stoi(parts.str(1)), std::stoi(parts.str(2))};
+  }
+
+  /// The two ways to share a mesh: every rank makes it, or all ranks together.
+  Overrides shared_by(const std::string &body, const std::string &distribution)
+  {
+    return {"Body " + body + "/Mesh/Distribution=" + distribution};
+  }
+  const std::string distributions[] = {"METIS", "p4est"};
+
   /// The cells of the ranks are all cells, each on one rank.
   void expect_shared(const std::string &text, const Overrides &overrides)
   {
+    SCOPED_TRACE(overrides.back());
     Session session(text, overrides + Overrides{"Output/Field interval=0"}, world());
     const taut::Scene &scene = session.simulation().scene();
     const auto body =
@@ -387,8 +423,12 @@ end
 // shared evenly.
 TEST(Ranks, cells_of_a_solid_are_on_one_rank_each)
 {
-  expect_shared(block(""), {"Partition/Number of substructures=8"});
-  expect_shared(cube_on_floor(2, 2), {"Partition/Number of substructures=8"});
+  const Overrides parts = {"Partition/Number of substructures=8"};
+  for (const std::string &distribution : distributions)
+  {
+    expect_shared(block(""), parts + shared_by("block", distribution));
+    expect_shared(cube_on_floor(2, 2), parts + shared_by("cube", distribution));
+  }
 }
 
 // Claim: answers are those of the whole mesh, with held and moved boundaries, loads,
@@ -399,17 +439,91 @@ TEST(Ranks, distributed_meshes_give_the_answers_of_whole_ones)
   const std::string at_rest = "subsection Time\n  set End = 0\nend\n",
                     in_motion = "subsection Time\n  set Step = 1e-3\n  set End = 0.03\nend\n";
   const Overrides matrix_free = {"Solver/Interface operator=matrix-free"};
-  for (const unsigned int degree : {1u, 2u})
+  for (const std::string &distribution : distributions)
   {
-    const Overrides of_degree = {"Body block/Degree=" + std::to_string(degree)};
-    const std::string title = "degree " + std::to_string(degree);
-    expect_same(title + " at rest", block(at_rest), 5, of_degree);
-    expect_same(title + " at rest, matrix-free", block(at_rest), 12, of_degree + matrix_free);
-    expect_same(title + " in motion", block(in_motion), 4, of_degree);
-    expect_same(title + " in motion, matrix-free", block(in_motion), 9, of_degree + matrix_free);
+    for (const unsigned int degree : {1u, 2u})
+    {
+      const Overrides of_degree = Overrides{"Body block/Degree=" + std::to_string(degree)} +
+                                  shared_by("block", distribution);
+      const std::string title = distribution + ", degree " + std::to_string(degree);
+      expect_same(title + " at rest", block(at_rest), 5, of_degree);
+      expect_same(title + " at rest, matrix-free", block(at_rest), 12, of_degree + matrix_free);
+      expect_same(title + " in motion", block(in_motion), 4, of_degree);
+      expect_same(title + " in motion, matrix-free", block(in_motion), 9, of_degree + matrix_free);
+    }
+    const Overrides of_cube = shared_by("cube", distribution);
+    expect_same(distribution + ", cube", cube_on_floor(2, 2), 8, of_cube);
+    expect_same(distribution + ", cube, degree 2", cube_on_floor(2, 1), 6,
+                of_cube + Overrides{"Body cube/Degree=2"});
   }
-  expect_same("cube", cube_on_floor(2, 2), 8);
-  expect_same("cube, degree 2", cube_on_floor(2, 1), 6, {"Body cube/Degree=2"});
+}
+
+// Claim: so they are on meshes that are refined locally, where hanging nodes are on borders between
+// ranks, and cells that differ by several levels at a corner are refined alike on any number of
+// ranks. Expected: as above.
+TEST(Ranks, distributed_meshes_have_hanging_nodes)
+{
+  const std::string at_rest = "subsection Time\n  set End = 0\nend\n";
+  for (const std::string &distribution : distributions)
+    for (const unsigned int degree : {1u, 2u})
+    {
+      const auto refined = [&](const std::string &body, const std::string &where)
+      {
+        return shared_by(body, distribution) +
+               Overrides{"Body " + body + "/Degree=" + std::to_string(degree),
+                         "Body " + body + "/Mesh/Refine where=" + where};
+      };
+      const std::string title = distribution + ", degree " + std::to_string(degree) + ", ";
+      for (const unsigned int n_parts : {4u, 9u})
+        expect_same(
+            title + "block, " + std::to_string(n_parts), block(at_rest), n_parts,
+            refined("block", "min(0.5-x, 0.5-y, 0.8/2^t-sqrt((x-0.5)^2+(y-0.5)^2))") +
+                Overrides{"Body block/Mesh/Refinements=1", "Body block/Mesh/Local refinements=3"});
+      expect_same(
+          title + "cube", cube_on_floor(2, 1), 7,
+          refined("cube", "min(0.5-x, 0.5-y, z-0.5, 0.9/2^t-sqrt((x-0.5)^2+(y-0.5)^2+(z-0.5)^2))") +
+              Overrides{"Body cube/Mesh/Local refinements=2"});
+    }
+}
+
+// Claim: the parts of a mesh that every rank makes are those of one process, and so are the
+// iterations but for rounding. Of a mesh that ranks refine they depend on the number of ranks, and
+// few coarse cells keep the iterations within a tenth. Expected: the run of one process.
+TEST(Ranks, parts_of_a_mesh_need_no_more_iterations)
+{
+  const Overrides parts = {"Partition/Number of substructures=27",
+                           "Solver/Interface operator=matrix-free"};
+  const auto compare = [&](const std::string &title, const std::string &text,
+                           const std::string &distribution, const double bound)
+  {
+    SCOPED_TRACE(title);
+    const Overrides overrides = parts + shared_by("cube", distribution);
+    const std::array<int, 2> here = iterations(record_nodes_of(text, overrides, world())),
+                             one = iterations(record_nodes_of(text, overrides, {}));
+    EXPECT_GT(one[0], 0);
+    EXPECT_EQ(here[1], one[1]);
+    EXPECT_LE(here[0], bound * one[0]);
+    figure(ranks_and_comma() + title, double(here[0]) / one[0]);
+  };
+  compare("METIS", cube_on_floor(10), "METIS", 1.03);
+  compare("METIS, refined", cube_on_floor(2, 2), "METIS", 1.03);
+  compare("p4est", cube_on_floor(2, 2), "p4est", 1.1);
+}
+
+// Claim: a mesh whose new nodes depend on all coarse cells stays whole, unless the ranks refine it
+// together. Expected: as above.
+TEST(Ranks, meshes_that_cannot_be_cut_stay_whole)
+{
+  const Overrides plate = {"Body block/Mesh/Generator=plate_with_a_hole",
+                           "Body block/Mesh/Arguments=0.1 : 0.5 : 0, 0, 0, 0 : 0.5, 0.5",
+                           "Body block/Mesh/Refinements=1",
+                           "Body block/Degree=2",
+                           "Network/Link spring/To=block @ 0.5, 0.8",
+                           "Output/Probe middle/Point=block @ 0.5, 0.9"};
+  for (const std::string &distribution : distributions)
+    expect_same(distribution, block("subsection Time\n  set End = 0\nend\n"), 6,
+                plate + Overrides{"Body block/Displacement=0: 0, 0"} +
+                    shared_by("block", distribution));
 }
 
 // Claim: so do tetrahedra of a file, which METIS shares out, and a user's body on a distributed
@@ -450,6 +564,21 @@ TEST(Ranks, distributed_meshes_are_held_where_another_rank_has_the_boundary)
                 square_of_file(MeshFile(square).path()), n_parts);
 }
 
+// Claim: meshes that p4est does not take are an error that says so.
+TEST(Ranks, p4est_takes_no_tetrahedra)
+{
+  dealii::Triangulation<3> tetrahedra;
+  dealii::GridGenerator::subdivided_hyper_cube_with_simplices(tetrahedra, 2);
+  const MeshFile file(tetrahedra);
+  const std::string message = error_of(
+      cube_of_tetrahedra(file.path()),
+      Overrides{"Partition/Number of substructures=6"} + shared_by("cube", "p4est"), world());
+  // One process shares no mesh.
+  EXPECT_EQ(has(message, "p4est takes quadrilaterals and hexahedra; take METIS"),
+            world().size() > 1)
+      << message;
+}
+
 // Claim: mistakes that one rank sees alone end on all ranks with the message of one process.
 TEST(Ranks, mistakes_on_distributed_meshes_are_those_of_whole_ones)
 {
@@ -460,25 +589,12 @@ TEST(Ranks, mistakes_on_distributed_meshes_are_those_of_whole_ones)
       {"Body block/Displacement=7: 0, 0"},
       {"Body block/Materials=1: 1e7, 0.3, 2000"},
   };
-  const auto message = [&](const Overrides &mistake, const taut::Communicator &processes)
-  {
-    std::string text;
-    try
-    {
-      record_nodes_of(block(at_rest), mistake + Overrides{"Partition/Number of substructures=6"},
-                      processes);
-    }
-    catch (const taut::UserError &e)
-    {
-      text = e.what();
-    }
-    const std::size_t place = text.find("scene.prm"); // in a folder of its own
-    return place == std::string::npos ? text : text.substr(place);
-  };
+  const Overrides parts = {"Partition/Number of substructures=6"};
   for (const Overrides &mistake : mistakes)
   {
     SCOPED_TRACE(mistake.front());
-    const std::string expected = message(mistake, {}), found = message(mistake, world());
+    const std::string expected = error_of(block(at_rest), mistake + parts, {}),
+                      found = error_of(block(at_rest), mistake + parts, world());
     EXPECT_FALSE(expected.empty());
     EXPECT_EQ(found, expected);
   }

@@ -46,14 +46,32 @@ namespace taut
 
     /**
      * Called by all ranks of a run together, before anything else is asked for, if the ranks may
-     * share the mesh of the body: division() then has the cells of this rank, see
-     * DivisibleBody::processes(). Of more than 0 @p least_dofs only a body in space with as many
-     * DoFs is shared. A type without a mesh does nothing, and every rank then has the whole body.
-     * Throws EntryError on all ranks.
+     * share the mesh of the body, for a mesh that is too large for a rank: division() then has the
+     * cells of this rank, see DivisibleBody::processes(). Of more than 0 @p least_dofs only a body
+     * in space with as many DoFs is shared. Does nothing by default. Throws EntryError on all
+     * ranks.
      */
     virtual void distribute(const BodySetting &, const Communicator &,
                             std::size_t /*least_dofs*/) const
     {
+    }
+
+    /// The cells that a rank keeps of a body.
+    struct OwnCells
+    {
+      std::shared_ptr<const DivisibleBody> body; ///< as division() from now on; none: all are kept
+      std::vector<unsigned int> numbers;         ///< of its cells before
+    };
+
+    /**
+     * Called by all ranks of a run together, after division(), if each of them has cells of the
+     * body: leaves each rank the cells that @p rank_of_cell gives it. A type that does nothing
+     * keeps the whole body on every rank.
+     */
+    virtual OwnCells keep_own_cells(const BodySetting &, const Communicator &,
+                                    const std::vector<unsigned int> & /*rank_of_cell*/) const
+    {
+      return {};
     }
 
     /// Estimated number of DoFs, by which ranks share the work; 0: not known before the body is

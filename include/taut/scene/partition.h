@@ -7,6 +7,7 @@
 #include <taut/scene/scene.h>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -103,13 +104,15 @@ namespace taut
       std::shared_ptr<const DivisibleBody> body;
       std::vector<unsigned int> part; ///< part of each cell
 
-      /// Of a distributed body: the first part of each rank, and the end; its parts are numbered
-      /// one after the other.
-      std::vector<unsigned int> first_of_rank = {};
+      /// Of a distributed body: its parts on all ranks, ascending.
+      std::vector<unsigned int> parts = {};
     };
     std::vector<Division> bodies; ///< one for each custom body, or empty
 
     unsigned int n_parts = 1;
+
+    /// The ranks of parts that are settled, as their ranks alone have cells of them.
+    std::map<unsigned int, unsigned int> rank_of_part = {};
 
     /// Number of cuts of wires.
     std::size_t n_cuts() const;

@@ -124,7 +124,7 @@ namespace taut
     /// DoF @p dof of the DoFHandler, from the displacement in a State.
     double value_of_dof(dealii::types::global_dof_index dof, const std::vector<double> &U) const
     {
-      return forms[index(dof)].dot(U);
+      return value(index(dof), U);
     }
 
     /// All DoFs of the DoFHandler, dependent DoFs included, from the displacement in a State; zero
@@ -179,6 +179,24 @@ namespace taut
     class Load;
     class Picture;
 
+    /// The kept DoFs on which DoF @p i depends, with weights.
+    template <typename Function>
+    void for_each_kept(unsigned int i, const Function &function) const
+    {
+      const auto found = dependences.find(i);
+      if (found == dependences.end())
+        return function(i, 1.);
+      for (std::size_t p = 0; p < found->second.index.size(); ++p)
+        function(found->second.index[p], found->second.value[p]);
+    }
+    double value(unsigned int i, const std::vector<double> &U) const
+    {
+      double sum = 0.;
+      for_each_kept(i,
+                    [&](const unsigned int kept, const double weight) { sum += weight * U[kept]; });
+      return sum;
+    }
+
     void set_matrix(const dealii::SparseMatrix<double> &source, SymmetricMatrix &target) const;
     void condense(const dealii::Vector<double> &P, std::vector<double> &result) const;
     std::vector<std::vector<double>> candidates(const Options &options) const;
@@ -192,7 +210,9 @@ namespace taut
     const Coordinates scalar_direction;
     std::vector<Cell> own_cells;                           ///< in ascending order
     std::vector<dealii::types::global_dof_index> own_dofs; ///< of a part; empty: all
-    std::vector<LinearForm> forms;                         ///< of each DoF on the kept DoFs
+    unsigned int n_rows = 0;                               ///< kept and dependent DoFs
+    std::map<unsigned int, LinearForm>
+        dependences; ///< on the kept DoFs, of those that are not kept
     dealii::Vector<double> U0, V0;
     NullSpace own_null_space;
   };

@@ -58,8 +58,8 @@ namespace taut
     }
   };
 
-  /// Any pattern, as compressed rows. Entries may be added
-  /// in any order until the first use of another function, and again after it.
+  /// Any pattern, as compressed rows of the lower triangle. Entries may be added in any order until
+  /// the first use of another function, and again after it.
   class CompressedMatrix : public SymmetricMatrix
   {
   public:
@@ -81,7 +81,7 @@ namespace taut
 
     unsigned int n;
     mutable SymmetricEntries added;             ///< not yet in the rows
-    mutable std::vector<std::size_t> begin_row; ///< both triangles; empty: no entries yet
+    mutable std::vector<std::size_t> begin_row; ///< empty: no entries yet
     mutable std::vector<unsigned int> column;
     mutable std::vector<double> value;
   };
