@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/coarse_space.h"
 
-#include "base/gather_entries.h"
 #include "base/pivots.h"
 
 #include <algorithm>
@@ -11,8 +10,10 @@
 namespace taut
 {
   CoarseSpace::CoarseSpace(const FactoredStructure &solvers,
-                           const BodyConstraints &body_constraints)
-      : solvers(solvers), body_constraints(body_constraints), responses(body_constraints.size())
+                           const BodyConstraints &body_constraints,
+                           const std::size_t largest_whole_factor)
+      : solvers(solvers), body_constraints(body_constraints), responses(body_constraints.size()),
+        E(solvers.structure().communicator(), largest_whole_factor)
   {
     const Communicator &processes = solvers.structure().communicator();
     std::size_t n_own = 0;
@@ -112,7 +113,7 @@ namespace taut
     }
   }
 
-  /// E is whole on each rank, of which each adds the products of the rows that it owns.
+  /// Each rank adds the products of the rows that it owns.
   void CoarseSpace::factor(const RowMap &rows)
   {
     if (n_columns == 0)
@@ -126,18 +127,17 @@ namespace taut
           if (k <= column)
             entries.add(column, k, z * value);
     }
-    entries.compress();
-    gather(rows.communicator(), entries);
     std::vector<double> diagonal(n_columns, 0.);
     for (std::size_t e = 0; e < entries.size(); ++e)
       if (entries.row[e] == entries.column[e])
         diagonal[entries.row[e]] += entries.value[e];
-    for (std::size_t k = 0; k < n_columns; ++k)
+    rows.communicator().sum(diagonal);
+    for (std::size_t k = 0; rows.communicator().is_root() && k < n_columns; ++k)
       // Rigid body modes of a group without active rows would make E singular and the columns of Z
       // dependent; their part in Z E^-1 Z^T is zero.
       entries.add(k, k, diagonal[k] > 0. ? dependence_shift * diagonal[k] : 1.);
     entries.compress();
-    E.factor(n_columns, entries, 0.);
+    E.factor(n_columns, std::move(entries), 0.);
   }
 
   namespace

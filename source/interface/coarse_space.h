@@ -2,6 +2,7 @@
 #ifndef taut_coarse_space_h
 #define taut_coarse_space_h
 
+#include "interface/shared_factor.h"
 #include <taut/base/sparse_cholesky.h>
 #include <taut/interface/constraint_operator.h>
 #include <taut/substructure/factored_structure.h>
@@ -25,7 +26,8 @@ namespace taut
   {
   public:
     /// The references are kept. Called, as all functions, by all ranks together.
-    CoarseSpace(const FactoredStructure &solvers, const BodyConstraints &body_constraints);
+    CoarseSpace(const FactoredStructure &solvers, const BodyConstraints &body_constraints,
+                std::size_t largest_whole_factor);
 
     /// Sets up for the active rows, with the arguments of InterfacePreconditioner::setup().
     void setup(const RowMap &rows, const std::vector<char> &active,
@@ -58,7 +60,7 @@ namespace taut
     std::vector<std::size_t> position;    ///< of a constraint among the held rows
     std::vector<Row> Z, FZ;               ///< the held rows
     std::vector<MatrixEntries> responses; ///< B_k^T A_k^-1 B_k Z of each body of this rank
-    SparseCholesky E;
+    SharedFactor E;
     mutable std::vector<double> amplitude;
   };
 } // namespace taut

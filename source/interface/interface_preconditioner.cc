@@ -30,14 +30,15 @@ namespace taut
     }
   } // namespace
 
-  InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
+  InterfacePreconditioner::InterfacePreconditioner(const InterfaceParameters &parameters,
                                                    const FactoredStructure &solvers,
                                                    const BodyConstraints &body_constraints)
-      : is_diagonal(name == "diagonal"), constraints(body_constraints.all()),
-        T(solvers, body_constraints)
+      : is_diagonal(parameters.preconditioner == "diagonal"), constraints(body_constraints.all()),
+        T(solvers, body_constraints),
+        inverse_T(solvers.structure().communicator(), parameters.largest_whole_factor)
   {
-    if (!is_diagonal && name != "Dirichlet")
-      throw UserError("unknown preconditioner '" + name +
+    if (!is_diagonal && parameters.preconditioner != "Dirichlet")
+      throw UserError("unknown preconditioner '" + parameters.preconditioner +
                       "'; known are: diagonal, Dirichlet. Correct the name");
   }
 
@@ -163,7 +164,7 @@ namespace taut
     for (std::size_t p = 0; p < T.n_dofs(); ++p)
       if (!has_diagonal[p])
         shifted.add(p, p, 1.);
-    inverse_T.factor(T.n_dofs(), shifted, 0.);
+    inverse_T.factor_of_all(T.n_dofs(), shifted, 0.);
   }
 
   /// Sets D^-1 B_r, and returns its products with rows that have a DoF in common, by the numbers of

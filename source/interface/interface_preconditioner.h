@@ -3,6 +3,9 @@
 #define taut_interface_preconditioner_h
 
 #include "interface/interface_stiffness.h"
+#include "interface/shared_factor.h"
+
+#include <taut/interface/interface_parameters.h>
 
 #include <algorithm>
 #include <memory>
@@ -52,8 +55,8 @@ namespace taut
   class InterfacePreconditioner
   {
   public:
-    /// The references are kept. Throws UserError for an unknown name.
-    InterfacePreconditioner(const std::string &name, const FactoredStructure &solvers,
+    /// The references to bodies and constraints are kept. Throws UserError for an unknown name.
+    InterfacePreconditioner(const InterfaceParameters &parameters, const FactoredStructure &solvers,
                             const BodyConstraints &body_constraints);
 
     /// All A_k are new.
@@ -112,7 +115,7 @@ namespace taut
 
     const RowMap *owners = nullptr;
     bool has_springs = false;
-    SparseCholesky inverse_T; ///< with springs
+    SharedFactor inverse_T; ///< with springs
 
     // Of the rows of blocks(), by their positions.
     std::vector<std::size_t> kept;  ///< their numbers, ascending

@@ -136,7 +136,7 @@ namespace taut
                                                        const Constraints &constraints)
       : parameters(parameters), solvers(solvers), constraints(constraints),
         body_constraints(solvers.structure(), constraints), F(solvers, body_constraints),
-        preconditioner(parameters.preconditioner, solvers, body_constraints),
+        preconditioner(parameters, solvers, body_constraints),
         flexibilities(solvers, body_constraints, cuts(constraints)), tolerance(smallest_residual),
         work(solvers.structure().zero())
   {
@@ -156,7 +156,8 @@ namespace taut
     compliance = S;
     F.set_compliance(S);
     if (parameters.coarse_space == "rigid body modes" && !solvers.is_generalised_inverse())
-      coarse_space = std::make_unique<CoarseSpace>(solvers, body_constraints);
+      coarse_space =
+          std::make_unique<CoarseSpace>(solvers, body_constraints, parameters.largest_whole_factor);
     preconditioner.reset();
     preconditioner.follow_sets(false);
     follows_sets = follows_in_vain = false;
@@ -366,14 +367,15 @@ namespace taut
       for (std::size_t p = 0; p < values.size(); ++p)
         values[p] = is_active[p] > 0. ? values[p] / scales[p] : 0.;
     };
-    const NaturalCoarseProblem coarse_problem(on_blocks(null_space, blocks.rows), scales, is_active,
-                                              rows(), blocks,
-                                              [&](std::vector<double> &values)
-                                              {
-                                                divide(values);
-                                                preconditioner.scale(values);
-                                                divide(values);
-                                              });
+    const NaturalCoarseProblem coarse_problem(
+        on_blocks(null_space, blocks.rows), scales, is_active, rows(), blocks,
+        [&](std::vector<double> &values)
+        {
+          divide(values);
+          preconditioner.scale(values);
+          divide(values);
+        },
+        parameters.largest_whole_factor);
     x.assign(constraints.size(), 0.);
     bool is_solved = coarse_problem.holds_the_bodies();
     if (is_solved)

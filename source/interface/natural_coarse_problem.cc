@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/natural_coarse_problem.h"
-#include "base/gather_entries.h"
 #include "base/pivots.h"
 
 #include <algorithm>
@@ -56,8 +55,10 @@ namespace taut
   NaturalCoarseProblem::NaturalCoarseProblem(
       const std::vector<LinearForm> &null_space, const std::vector<double> &scale,
       const std::vector<double> &active, const RowMap &rows, const RowBlocks &blocks,
-      const std::function<void(std::vector<double> &)> &solve)
-      : rows(rows), G(null_space.size()), scaled_G(null_space.size())
+      const std::function<void(std::vector<double> &)> &solve,
+      const std::size_t largest_whole_factor)
+      : rows(rows), G(null_space.size()), scaled_G(null_space.size()),
+        squares(rows.communicator(), largest_whole_factor)
   {
     // Position of each row among the owned ones.
     std::vector<std::size_t> owned(blocks.rows.size(), nowhere);
@@ -120,9 +121,7 @@ namespace taut
             entries.add(k, other, G[k].value[e] * value);
     }
     entries.compress();
-    gather(rows.communicator(), entries);
-    entries.compress();
-    is_definite = squares.factor(G.size(), entries, dependent_pivot) == G.size();
+    is_definite = squares.factor(G.size(), std::move(entries), dependent_pivot);
   }
 
   void NaturalCoarseProblem::balance(const std::vector<double> &e, std::vector<double> &x) const

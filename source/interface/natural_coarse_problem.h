@@ -33,7 +33,8 @@ namespace taut
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                          const std::vector<double> &scale, const std::vector<double> &active,
                          const RowMap &rows, const RowBlocks &blocks,
-                         const std::function<void(std::vector<double> &)> &solve);
+                         const std::function<void(std::vector<double> &)> &solve,
+                         std::size_t largest_whole_factor);
 
     /// False if rows of G are dependent: the active rows do not hold a body.
     bool holds_the_bodies() const { return is_definite; }
@@ -56,7 +57,7 @@ namespace taut
 
     const RowMap &rows;
     std::vector<LinearForm> G, scaled_G; ///< G Q^-1; of owned rows
-    SparseCholesky squares;              ///< G Q^-1 G^T
+    SharedFactor squares;                ///< G Q^-1 G^T
     bool is_definite = false;
   };
 } // namespace taut

@@ -167,7 +167,8 @@ namespace taut
           << counted(start.residuals.iterations, "active-set iteration");
       if (start.residuals.n_systems > 0)
         log << ", " << counted(start.residuals.n_inner_iterations, "iteration")
-            << " of conjugate gradients in " << counted(start.residuals.n_systems, "system");
+            << " of conjugate gradients in " << counted(start.residuals.n_systems, "system") << ", "
+            << counted(start.residuals.n_products, "product") << " with F";
       log << '\n';
       report_free_bodies();
       processes.agree(

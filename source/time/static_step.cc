@@ -219,6 +219,7 @@ namespace taut
     step.certify(state, residuals);
     const InterfaceStatistics solves = step.interface_statistics();
     residuals.n_systems = solves.n_systems;
+    residuals.n_products = solves.n_applications;
     residuals.n_inner_iterations = solves.n_iterations;
     return residuals;
   }

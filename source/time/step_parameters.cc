@@ -33,6 +33,11 @@ namespace taut
         "for directly, so that the iterations do not grow with the number of bodies or the step. "
         "'none': the operator alone.",
         Patterns::Selection("rigid body modes|none"));
+    prm.add_parameter("Largest whole factor", interface.largest_whole_factor,
+                      "Of the matrix-free operator on several ranks: rows up to which each rank "
+                      "factors the coarse problem, or the stiffnesses with springs, whole. MUMPS "
+                      "shares larger ones out [1]",
+                      Patterns::Integer(0));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "
                       "and hands over if it cycles, to MPRGP where F is matrix-free, else to "

@@ -6,6 +6,7 @@
 #include "fuzz/library_bodies.h"
 
 #include "interface/schur_complement.h"
+#include "interface/shared_factor.h"
 #include <taut/base/communicator.h>
 #include <taut/interface/contact_schur_operator.h>
 #include <taut/interface/system.h>
@@ -263,6 +264,53 @@ TEST(Operators, a_block_of_rows_on_all_ranks_is_inverted)
     ASSERT_TRUE(F->matrix().solve(set, row.product(known), 0., x));
     expect_close(x.data(), known);
     EXPECT_LE(F->statistics().n_iterations, 2);
+  }
+}
+
+// A factor that the ranks share solves as one that each of them has whole, and tells a matrix that
+// is not definite to working precision. Source: a chain of springs c_i between masses, held by the
+// first one, u_i = sum of 1 / c_j up to i under a force at its end.
+TEST(Operators, factors_that_ranks_share_are_those_of_one)
+{
+  constexpr std::size_t n = 50;
+  const taut::Communicator processes(MPI_COMM_WORLD);
+  const auto spring = [](const std::size_t i) { return 1e3 * (1. + .1 * i); };
+  const auto share = [&](const bool is_held)
+  {
+    taut::SymmetricEntries entries;
+    for (std::size_t i = 0; i < n; ++i)
+      if (i % processes.size() == processes.rank())
+      {
+        const double c = i > 0 || is_held ? spring(i) : 0.;
+        entries.add(i, i, c);
+        if (i == 0)
+          continue;
+        entries.add(i, i - 1, -c);
+        entries.add(i - 1, i - 1, c);
+      }
+    return entries;
+  };
+  for (const std::size_t largest_whole : {n, n - 1})
+  {
+    taut::SharedFactor factor(processes, largest_whole);
+    ASSERT_TRUE(factor.factor(n, share(true), 1e-12));
+    std::vector<double> x(n, 0.), expected;
+    x.back() = 7.;
+    factor.solve(x);
+    double u = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      expected.push_back(u += 7. / spring(i));
+    expect_close(x.data(), expected);
+    EXPECT_FALSE(factor.factor(n, share(false), 1e-12));
+    // Of entries that all ranks have.
+    taut::SymmetricEntries all;
+    for (std::size_t i = 0; i < n; ++i)
+      all.add(i, i, spring(i));
+    ASSERT_TRUE(factor.factor_of_all(n, all, 1e-12));
+    x.assign(n, 1.);
+    factor.solve(x);
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(x[i], 1. / spring(i), 1e-14 / spring(i));
   }
 }
 

@@ -274,6 +274,16 @@ TEST(Ranks, all_interface_operators_answer_the_same)
                 {"Solver/Interface operator=" + form});
 }
 
+// Claim: so where the ranks share the factors of the preconditioner and of the coarse space.
+// Expected: as above.
+TEST(Ranks, shared_factors_answer_the_same)
+{
+  for (const double step : {1e-1, 10.})
+    expect_same("5 spans, shared factors, step " + std::to_string(step), step,
+                line(5, step, 10, .75), {7, 64},
+                {"Solver/Interface operator=matrix-free", "Solver/Largest whole factor=0"});
+}
+
 // Claim: so with steps that the local error chooses, which is the largest of all ranks. Expected:
 // as above, the same number of steps.
 TEST(Ranks, adaptive_steps_are_the_same)

@@ -29,8 +29,8 @@ namespace taut
     bool fallback = false;       ///< the solver's other method finished the step
 
     /// At rest: systems with the contact Schur complement that conjugate gradients have solved, and
-    /// their iterations.
-    long n_systems = 0, n_inner_iterations = 0;
+    /// their iterations; products with it in all.
+    long n_systems = 0, n_inner_iterations = 0, n_products = 0;
 
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
