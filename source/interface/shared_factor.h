@@ -44,7 +44,7 @@ namespace taut
 
     Communicator processes;
     std::size_t largest_whole;
-    SparseCholesky whole;
+    SparseCholesky whole{CholeskyMethod::automatic};
     std::unique_ptr<Shares> shares; ///< none: the factor is whole
   };
 } // namespace taut
