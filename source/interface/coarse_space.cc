@@ -137,7 +137,7 @@ namespace taut
       // dependent; their part in Z E^-1 Z^T is zero.
       entries.add(k, k, diagonal[k] > 0. ? dependence_shift * diagonal[k] : 1.);
     entries.compress();
-    E.factor(n_columns, std::move(entries), 0.);
+    E.factor(E.even_share(n_columns), std::move(entries), 0.);
   }
 
   namespace

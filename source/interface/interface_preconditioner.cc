@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/interface_preconditioner.h"
-#include "base/gather_entries.h"
 #include "base/groups.h"
 #include "base/pivots.h"
 
@@ -50,12 +49,9 @@ namespace taut
     std::vector<double> of_owned, result(kept.size());
     for (const std::size_t number : owners->owned())
       of_owned.push_back(of_constraints[constraints.index(number)]);
-    if (own_rows)
-      own_rows->copy_to_holders(of_owned.data(), result.data());
-    else if (is_diagonal)
-      result = of_owned;
-    else
-      owners->gather(of_owned, result);
+    if (!own_rows)
+      return of_owned;
+    own_rows->copy_to_holders(of_owned.data(), result.data());
     return result;
   }
 
@@ -70,8 +66,6 @@ namespace taut
   {
     if (own_rows)
       own_rows->sum_entries(of_owned, n_columns);
-    else if (!is_diagonal)
-      gather(owners->communicator(), of_owned);
   }
 
   void InterfacePreconditioner::setup(const RowMap &rows, const std::vector<char> &active,
@@ -80,42 +74,27 @@ namespace taut
                                       const std::vector<double> &own_diagonal)
   {
     owners = &rows;
-    const auto is_elastic = [&](const std::size_t number)
-    {
-      const std::size_t i = constraints.index(number);
-      return active[i] && own_compliance[i] > smallest_compliance * own_diagonal[i];
-    };
-    has_springs =
-        !is_diagonal &&
-        rows.communicator().any(std::any_of(rows.owned().begin(), rows.owned().end(), is_elastic));
     if (is_diagonal)
     {
       kept = rows.owned();
       set_rows(active, own_diagonal, own_compliance);
       return;
     }
-    T.setup(active, is_changed, has_springs);
-    if (rows.communicator().size() > 1 && !has_springs)
-    {
-      stiffness.clear();
-      const MatrixEntries products = scale_by_stiffness();
+    T.setup(active, is_changed);
+    set_springs(active, own_compliance, own_diagonal);
+    const MatrixEntries products = scale_by_stiffness();
+    if (rows.communicator().size() > 1)
       keep_blocks(products);
-      set_rows(active, own_diagonal, own_compliance);
-      MatrixEntries of_kept;
-      for (std::size_t e = 0; e < scaled_B.size(); ++e)
-        if (scaled_B.value[e] != 0.)
-          of_kept.add(position(scaled_B.row[e]), scaled_B.column[e], scaled_B.value[e]);
-      scaled_B = std::move(of_kept);
-      set_scaling(products);
-      return;
+    else
+    {
+      kept.resize(constraints.n_of_all());
+      std::iota(kept.begin(), kept.end(), std::size_t(0));
     }
-    own_rows.reset();
-    kept.resize(constraints.n_of_all());
-    std::iota(kept.begin(), kept.end(), std::size_t(0));
     set_rows(active, own_diagonal, own_compliance);
+    set_scaling(products);
+    set_forms();
     if (has_springs)
-      add_springs();
-    set_scaling(scale_by_stiffness());
+      factor_with_springs();
   }
 
   /// Of a row among those of blocks().
@@ -149,45 +128,116 @@ namespace taut
     Q_entries = {};
   }
 
-  /// The elastic rows as springs between the DoFs, and the factor of T with them.
-  void InterfacePreconditioner::add_springs()
+  /// Stiffnesses of elastic rows that this rank holds, and the diagonal of T with them.
+  void InterfacePreconditioner::set_springs(const std::vector<char> &active,
+                                            const std::vector<double> &own_compliance,
+                                            const std::vector<double> &own_diagonal)
   {
-    T.add_springs(stiffness);
-    SymmetricEntries shifted = T.entries();
-    std::vector<char> has_diagonal(T.n_dofs(), 0);
-    for (std::size_t e = 0; e < shifted.size(); ++e)
-      if (shifted.row[e] == shifted.column[e] && shifted.value[e] > 0.)
-      {
-        shifted.value[e] *= 1. + null_space_shift;
-        has_diagonal[shifted.row[e]] = 1;
-      }
-    for (std::size_t p = 0; p < T.n_dofs(); ++p)
-      if (!has_diagonal[p])
-        shifted.add(p, p, 1.);
-    inverse_T.factor_of_all(T.n_dofs(), shifted, 0.);
+    springs.assign(owners->held().size(), 0.);
+    D = T.diagonal();
+    std::vector<double> of_owned;
+    for (const std::size_t number : owners->owned())
+    {
+      const std::size_t i = constraints.index(number);
+      const bool is_spring = active[i] && own_compliance[i] > smallest_compliance * own_diagonal[i];
+      of_owned.push_back(is_spring ? 1. / own_compliance[i] : 0.);
+    }
+    has_springs = owners->communicator().any(std::any_of(
+        of_owned.begin(), of_owned.end(), [](const double spring) { return spring > 0.; }));
+    if (!has_springs)
+      return;
+    owners->copy_to_holders(of_owned.data(), springs.data());
+    const MatrixEntries &forms = T.constraints();
+    for (std::size_t e = 0; e < forms.size(); ++e)
+      D[forms.column[e]] += spring(forms.row[e]) * forms.value[e] * forms.value[e];
   }
 
-  /// Sets D^-1 B_r, and returns its products with rows that have a DoF in common, by the numbers of
-  /// the rows.
+  /// Stiffness of a held row; 0 if it is not elastic.
+  double InterfacePreconditioner::spring(const int number) const
+  {
+    const std::vector<std::size_t> &held = owners->held();
+    const auto at = std::lower_bound(held.begin(), held.end(), static_cast<std::size_t>(number));
+    return at != held.end() && *at == static_cast<std::size_t>(number) ? springs[at - held.begin()]
+                                                                       : 0.;
+  }
+
+  /// B and D^-1 B_r on the rows of blocks().
+  void InterfacePreconditioner::set_forms()
+  {
+    B = {};
+    scaled_B.clear();
+    const MatrixEntries &forms = T.constraints();
+    for (std::size_t e = 0; e < forms.size(); ++e)
+    {
+      const std::size_t p = position(forms.row[e]);
+      if (p >= kept.size() || kept[p] != static_cast<std::size_t>(forms.row[e]) ||
+          (!is_rigid[p] && stiffness[p] == 0.))
+        continue;
+      const double d = D[forms.column[e]];
+      B.add(p, forms.column[e], forms.value[e]);
+      scaled_B.push_back(is_rigid[p] && d > 0. ? forms.value[e] / d : 0.);
+    }
+  }
+
+  /// The factor of T with the elastic rows as springs between the DoFs, which may be of two ranks:
+  /// the owner of a row adds its spring.
+  void InterfacePreconditioner::factor_with_springs()
+  {
+    const Communicator &processes = owners->communicator();
+    const std::size_t n = T.n_dofs();
+    std::vector<std::size_t> sizes;
+    processes.gather(n, sizes);
+    const auto own = sizes.begin() + processes.rank();
+    const std::size_t first = std::accumulate(sizes.begin(), own, std::size_t(0)),
+                      all = std::accumulate(own, sizes.end(), first);
+    SymmetricEntries shifted = T.entries();
+    for (std::size_t e = 0; e < shifted.size(); ++e)
+    {
+      shifted.row[e] += static_cast<int>(first);
+      shifted.column[e] += static_cast<int>(first);
+    }
+    for (std::size_t p = 0; p < n; ++p)
+      shifted.add(first + p, first + p, D[p] > 0. ? null_space_shift * D[p] : 1.);
+    MatrixEntries elastic;
+    for (std::size_t e = 0; e < B.size(); ++e)
+      if (stiffness[B.row[e]] > 0.)
+        elastic.add(kept[B.row[e]], first + B.column[e], B.value[e]);
+    if (own_rows)
+      own_rows->sum_entries(elastic, all);
+    for (std::size_t begin = 0, end = 0; begin < elastic.size(); begin = end)
+    {
+      const int number = elastic.row[begin];
+      while (end < elastic.size() && elastic.row[end] == number)
+        ++end;
+      if (!std::binary_search(owners->owned().begin(), owners->owned().end(),
+                              static_cast<std::size_t>(number)))
+        continue;
+      const double s = spring(number);
+      for (std::size_t e = begin; e < end; ++e)
+        for (std::size_t f = begin; f <= e; ++f)
+          shifted.add(elastic.column[e], elastic.column[f],
+                      s * elastic.value[e] * elastic.value[f]);
+    }
+    shifted.compress();
+    inverse_T.factor(n, std::move(shifted), 0.);
+  }
+
+  /// Products of D^-1 B_r with rows that have a DoF in common, by the numbers of the rows.
   MatrixEntries InterfacePreconditioner::scale_by_stiffness()
   {
-    const MatrixEntries &B = T.constraints();
-    const std::vector<double> D = T.diagonal();
-    scaled_B = B;
+    const MatrixEntries &forms = T.constraints();
     std::vector<std::vector<std::size_t>> at_dof(D.size());
-    for (std::size_t e = 0; e < B.size(); ++e)
-    {
-      const double d = D[B.column[e]];
-      const bool is_elastic = has_springs && stiffness[B.row[e]] != 0.;
-      scaled_B.value[e] = d > 0. && !is_elastic ? B.value[e] / d : 0.;
-      if (scaled_B.value[e] != 0.)
-        at_dof[B.column[e]].push_back(e);
-    }
+    for (std::size_t e = 0; e < forms.size(); ++e)
+      if (D[forms.column[e]] > 0. && spring(forms.row[e]) == 0.)
+        at_dof[forms.column[e]].push_back(e);
     MatrixEntries products;
-    for (const auto &at : at_dof)
-      for (std::size_t a = 0; a < at.size(); ++a)
+    for (std::size_t dof = 0; dof < at_dof.size(); ++dof)
+      for (std::size_t a = 0; a < at_dof[dof].size(); ++a)
         for (std::size_t b = 0; b <= a; ++b)
-          products.add(B.row[at[a]], B.row[at[b]], scaled_B.value[at[a]] * B.value[at[b]]);
+        {
+          const std::size_t e = at_dof[dof][a], f = at_dof[dof][b];
+          products.add(forms.row[e], forms.row[f], forms.value[e] * forms.value[f] / D[dof]);
+        }
     products.compress();
     return products;
   }
@@ -235,11 +285,15 @@ namespace taut
   void InterfacePreconditioner::keep_blocks(const MatrixEntries &products)
   {
     const Communicator &processes = owners->communicator();
+    const std::vector<std::size_t> &held = owners->held();
+    std::vector<char> elastic(held.size());
+    for (std::size_t p = 0; p < held.size(); ++p)
+      elastic[p] = springs[p] > 0.;
     const bool is_same = own_rows && pattern.row == products.row &&
-                         pattern.column == products.column && owned == owners->owned();
+                         pattern.column == products.column && owned == owners->owned() &&
+                         has_spring == elastic;
     if (!processes.any(!is_same))
       return;
-    const std::vector<std::size_t> &held = owners->held();
     const auto position = [&](const int number)
     {
       return std::lower_bound(held.begin(), held.end(), static_cast<std::size_t>(number)) -
@@ -290,8 +344,12 @@ namespace taut
     for (std::size_t e = 0; e < rows_of_blocks.size(); ++e)
       if (seen.count(rows_of_blocks.row[e]) > 0)
         kept.push_back(rows_of_blocks.column[e]);
+    for (std::size_t p = 0; p < held.size(); ++p)
+      if (elastic[p])
+        kept.push_back(held[p]);
     sort_unique(kept);
     own_rows = std::make_unique<const RowMap>(*owners, kept);
+    has_spring = std::move(elastic);
     pattern = products;
     owned = owners->owned();
   }
@@ -310,76 +368,90 @@ namespace taut
       r[p] = is_rigid[p] ? jump[p] : other[p] * r[p];
   }
 
-  void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
+  /// Sums the shares in @p jump on the owned rows.
+  void InterfacePreconditioner::sum_shares() const
   {
-    if (!is_diagonal && !own_rows)
+    if (!own_rows)
     {
-      owners->gather(r, all);
-      apply_to_all(all, image);
-      owners->pick(image, z);
+      sums = jump;
       return;
     }
-    z.resize(r.size());
-    for (std::size_t p = 0; p < r.size(); ++p)
-      z[p] = other[place[p]] * r[p];
-    if (own_rows)
-      apply_by_owners(r, z);
+    sums.resize(place.size());
+    own_rows->add_shares(jump.data(), sums.data());
   }
 
-  /// Without springs: adds the rigid rows to z, on owned rows.
-  void InterfacePreconditioner::apply_by_owners(const std::vector<double> &r,
-                                                std::vector<double> &z) const
+  /// Sums the shares in @p jump on the rows of blocks().
+  void InterfacePreconditioner::take_shares() const
   {
-    jump.resize(kept.size());
-    own_rows->copy_to_holders(r.data(), jump.data());
+    if (!own_rows)
+      return;
+    sum_shares();
+    own_rows->copy_to_holders(sums.data(), jump.data());
+  }
+
+  /// force = (T + B_c S_c^-1 B_c^T)^-1 force.
+  void InterfacePreconditioner::solve_springs() const
+  {
+    inverse_T.solve_own(force);
+  }
+
+  /// force = (T + B_c S_c^-1 B_c^T) motion.
+  void InterfacePreconditioner::multiply_with_springs() const
+  {
+    T.multiply(motion, force);
+    if (!has_springs)
+      return;
+    jump.assign(kept.size(), 0.);
+    for (std::size_t e = 0; e < B.size(); ++e)
+      jump[B.row[e]] += stiffness[B.row[e]] * B.value[e] * motion[B.column[e]];
+    take_shares();
+    for (std::size_t e = 0; e < B.size(); ++e)
+      if (stiffness[B.row[e]] > 0.)
+        force[B.column[e]] += B.value[e] * jump[B.row[e]];
+  }
+
+  void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
+  {
+    z.resize(r.size());
+    for (std::size_t p = 0; p < r.size(); ++p)
+      z[p] = stiffness[place[p]] == 0. ? other[place[p]] * r[p] : 0.;
+    if (is_diagonal)
+      return;
+    residual.resize(kept.size());
+    if (own_rows)
+      own_rows->copy_to_holders(r.data(), residual.data());
+    else
+      residual = r;
+    jump = residual;
+    if (has_springs)
+    {
+      // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave to the rigid ones.
+      force.assign(T.n_dofs(), 0.);
+      for (std::size_t e = 0; e < B.size(); ++e)
+        force[B.column[e]] += B.value[e] * stiffness[B.row[e]] * residual[B.row[e]];
+      solve_springs();
+      jump.assign(kept.size(), 0.);
+      for (std::size_t e = 0; e < B.size(); ++e)
+        jump[B.row[e]] -= B.value[e] * force[B.column[e]];
+      take_shares();
+      for (std::size_t p = 0; p < kept.size(); ++p)
+        jump[p] += residual[p];
+    }
+
+    // Applies the rigid rows.
     Q.solve(jump);
     motion.assign(T.n_dofs(), 0.);
-    for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      motion[scaled_B.column[e]] += scaled_B.value[e] * jump[scaled_B.row[e]];
-    T.multiply(motion, force);
-    std::fill(jump.begin(), jump.end(), 0.);
-    for (std::size_t e = 0; e < scaled_B.size(); ++e)
-      jump[scaled_B.row[e]] += scaled_B.value[e] * force[scaled_B.column[e]];
-    image.resize(r.size());
-    own_rows->add_shares(jump.data(), image.data());
-    own_rows->copy_to_holders(image.data(), jump.data());
+    for (std::size_t e = 0; e < B.size(); ++e)
+      motion[B.column[e]] += scaled_B[e] * jump[B.row[e]];
+    multiply_with_springs();
+    jump.assign(kept.size(), 0.);
+    for (std::size_t e = 0; e < B.size(); ++e)
+      jump[B.row[e]] += scaled_B[e] * force[B.column[e]];
+    take_shares();
     Q.solve(jump);
     for (std::size_t p = 0; p < r.size(); ++p)
       if (is_rigid[place[p]])
         z[p] += jump[place[p]];
-  }
-
-  void InterfacePreconditioner::apply_to_all(const std::vector<double> &r,
-                                             std::vector<double> &z) const
-  {
-    z.resize(r.size());
-    for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = stiffness[i] == 0. ? other[i] * r[i] : 0.;
-
-    const MatrixEntries &B = T.constraints();
-    // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.
-    force.assign(T.n_dofs(), 0.);
-    for (std::size_t e = 0; e < B.size(); ++e)
-      force[B.column[e]] += B.value[e] * stiffness[B.row[e]] * r[B.row[e]];
-    if (has_springs)
-      inverse_T.solve(force);
-
-    // Applies the rigid rows.
-    jump = r;
-    for (std::size_t e = 0; e < B.size(); ++e)
-      jump[B.row[e]] -= B.value[e] * force[B.column[e]];
-    Q.solve(jump);
-    motion.assign(T.n_dofs(), 0.);
-    for (std::size_t e = 0; e < B.size(); ++e)
-      motion[B.column[e]] += scaled_B.value[e] * jump[B.row[e]];
-    T.multiply(motion, force);
-    jump.assign(r.size(), 0.);
-    for (std::size_t e = 0; e < B.size(); ++e)
-      jump[B.row[e]] += scaled_B.value[e] * force[B.column[e]];
-    Q.solve(jump);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      if (is_rigid[i])
-        z[i] += jump[i];
     if (!has_springs)
       return;
 
@@ -387,13 +459,15 @@ namespace taut
     force.assign(T.n_dofs(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
     {
-      const int i = B.row[e];
-      force[B.column[e]] += B.value[e] * (stiffness[i] > 0. ? stiffness[i] * r[i] : z[i]);
+      const std::size_t p = B.row[e];
+      force[B.column[e]] += B.value[e] * (stiffness[p] > 0. ? stiffness[p] * residual[p] : jump[p]);
     }
-    inverse_T.solve(force);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] += stiffness[i] * r[i];
+    solve_springs();
+    jump.assign(kept.size(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
-      z[B.row[e]] -= stiffness[B.row[e]] * B.value[e] * force[B.column[e]];
+      jump[B.row[e]] -= stiffness[B.row[e]] * B.value[e] * force[B.column[e]];
+    sum_shares();
+    for (std::size_t p = 0; p < r.size(); ++p)
+      z[p] += stiffness[place[p]] * r[p] + sums[p];
   }
 } // namespace taut

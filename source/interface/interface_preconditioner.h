@@ -48,9 +48,9 @@ namespace taut
    * constraints at a node that several parts share. Moving constraints are constraints like the
    * others.
    *
-   * Without elastic constraints one of several ranks applies it to what its bodies see: the rows of
-   * the blocks of Q with a term on one of them. Otherwise each
-   * rank has all of B, Q, T and the factor of T, and applies it to all rows.
+   * Each of several ranks has T_k and B of its own bodies, and applies them to the rows that these
+   * see: the elastic ones, and those of the blocks of Q with a term on one of them. The factor of
+   * T with springs is a SharedFactor.
    */
   class InterfacePreconditioner
   {
@@ -79,8 +79,7 @@ namespace taut
     /// z = M^-1 r on owned rows; zero on inactive constraints. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
-    /// The blocks of Q that this rank has, with the owned rows: all on one rank, and with elastic
-    /// constraints.
+    /// The blocks of Q that this rank has, with the owned rows: all on one rank.
     RowBlocks blocks() const;
 
     /// True if these are all rows, and the constraints of this rank are, too.
@@ -102,12 +101,18 @@ namespace taut
     std::size_t position(int number) const;
     void set_rows(const std::vector<char> &active, const std::vector<double> &diagonal,
                   const std::vector<double> &compliance);
-    void add_springs();
+    void set_springs(const std::vector<char> &active, const std::vector<double> &own_compliance,
+                     const std::vector<double> &own_diagonal);
+    void factor_with_springs();
+    double spring(int number) const;
     MatrixEntries scale_by_stiffness();
     void keep_blocks(const MatrixEntries &products);
     void set_scaling(const MatrixEntries &products);
-    void apply_by_owners(const std::vector<double> &r, std::vector<double> &z) const;
-    void apply_to_all(const std::vector<double> &r, std::vector<double> &z) const;
+    void set_forms();
+    void solve_springs() const;
+    void multiply_with_springs() const;
+    void take_shares() const;
+    void sum_shares() const;
 
     const bool is_diagonal;
     const Constraints &constraints;
@@ -123,16 +128,23 @@ namespace taut
     std::vector<double> other;      ///< 1 / F_ii of active constraints outside Q, else 0
     std::vector<double> stiffness;  ///< 1 / S_i of elastic constraints, else 0
     std::vector<std::size_t> place; ///< of an owned row
-    MatrixEntries scaled_B;         ///< D^-1 B_r, in the order of the constraints of T
+    MatrixEntries B;                ///< of rigid and elastic rows
+    std::vector<double> scaled_B;   ///< D^-1 B_r, in the order of B
     SymmetricEntries Q_entries;     ///< of the rigid rows, 1 on the others
     SparseCholesky Q;
 
-    // Of one of several ranks, without springs.
+    std::vector<double> springs; ///< 1 / S_i of elastic constraints, else 0; of held rows
+    std::vector<double> D;       ///< diagonal of T with springs
+
+    // Of one of several ranks.
     std::unique_ptr<const RowMap> own_rows; ///< holds the rows of blocks()
     MatrixEntries pattern;                  ///< of the products that they follow from
+    std::vector<char> has_spring;           ///< a held row, then
     std::vector<std::size_t> owned;         ///< rows of the owners then
 
-    mutable std::vector<double> motion, force, jump, all, image;
+    /// @p motion and @p force: of the DoFs of T; @p jump and @p residual: of the rows of blocks();
+    /// @p sums: of owned rows.
+    mutable std::vector<double> motion, force, jump, residual, sums;
   };
 } // namespace taut
 

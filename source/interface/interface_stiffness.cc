@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/interface_stiffness.h"
 
-#include "base/gather_entries.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -40,11 +38,9 @@ namespace taut
   }
 
   void InterfaceStiffness::setup(const std::vector<char> &active,
-                                 const std::vector<char> &is_changed, const bool everywhere)
+                                 const std::vector<char> &is_changed)
   {
-    is_everywhere = everywhere;
-    const Communicator &processes = solvers.structure().communicator();
-    processes.agree(
+    solvers.structure().communicator().agree(
         [&]
         {
           for (std::size_t k = 0; k < body_constraints.size(); ++k)
@@ -52,17 +48,6 @@ namespace taut
               compute_block(k, active);
         });
     std::size_t first = 0;
-    n_constrained = 0;
-    for (const Block &block : blocks)
-      n_constrained += block.dofs.size();
-    if (everywhere)
-    {
-      std::vector<std::size_t> sizes;
-      processes.gather(n_constrained, sizes);
-      first = std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
-      n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
-    }
-
     T = {};
     B = {};
     substitute = {};
@@ -85,12 +70,7 @@ namespace taut
         }
       first += block.dofs.size();
     }
-    if (everywhere)
-    {
-      gather(processes, T);
-      gather(processes, substitute);
-      gather(processes, B);
-    }
+    n_constrained = first;
     T.compress();
     B.compress();
   }
@@ -228,20 +208,6 @@ namespace taut
     }
   }
 
-  void InterfaceStiffness::add_springs(const std::vector<double> &s)
-  {
-    for (std::size_t first = 0, end = 0; first < B.size(); first = end)
-    {
-      const int i = B.row[first];
-      while (end < B.size() && B.row[end] == i)
-        ++end;
-      for (std::size_t e = first; s[i] > 0. && e < end; ++e)
-        for (std::size_t f = first; f <= e; ++f)
-          T.add(B.column[e], B.column[f], s[i] * B.value[e] * B.value[f]);
-    }
-    T.compress();
-  }
-
   SymmetricEntries InterfaceStiffness::entries() const
   {
     SymmetricEntries result = T;
@@ -288,11 +254,7 @@ namespace taut
   {
     f.assign(n_constrained, 0.);
     if (substitute.size() > 0)
-    {
       apply_substituted(u, f);
-      if (is_everywhere)
-        solvers.structure().communicator().sum(f);
-    }
     T.vmult_add(u, f);
   }
 } // namespace taut

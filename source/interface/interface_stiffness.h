@@ -37,15 +37,9 @@ namespace taut
     /// it takes more DoFs than the active constraints have.
     std::vector<std::size_t> applied_bodies(const std::vector<char> &active, bool coarse) const;
 
-    /// See InterfacePreconditioner::setup(). With @p everywhere all ranks get T and B of all
-    /// bodies, otherwise each those of its own ones, which no others are coupled with but by
-    /// springs. Called by all ranks together.
-    void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
-               bool everywhere);
-
-    /// After setup() everywhere: adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0,
-    /// by the numbers of the rows.
-    void add_springs(const std::vector<double> &s);
+    /// See InterfacePreconditioner::setup(). T and B of the bodies of this rank, with which no
+    /// others are coupled. Called by all ranks together.
+    void setup(const std::vector<char> &active, const std::vector<char> &is_changed);
 
     /// Number of DoFs in the lists b, and the forms B in order of the numbers of their rows.
     std::size_t n_dofs() const { return n_constrained; }
@@ -55,7 +49,7 @@ namespace taut
     SymmetricEntries entries() const;
     std::vector<double> diagonal() const;
 
-    /// f = T u. Called by all ranks together.
+    /// f = T u.
     void multiply(const std::vector<double> &u, std::vector<double> &f) const;
 
   private:
@@ -80,9 +74,9 @@ namespace taut
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;
-    bool follows_sets = false, is_everywhere = false;
+    bool follows_sets = false;
     std::size_t n_constrained = 0;
-    SymmetricEntries T;          ///< formed blocks and springs
+    SymmetricEntries T;          ///< formed blocks
     SymmetricEntries substitute; ///< A_k on b of blocks that are not formed
     MatrixEntries B;             ///< number of the row of F, DoF
     mutable std::vector<double> whole, image;

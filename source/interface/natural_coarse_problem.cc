@@ -121,7 +121,7 @@ namespace taut
             entries.add(k, other, G[k].value[e] * value);
     }
     entries.compress();
-    is_definite = squares.factor(G.size(), std::move(entries), dependent_pivot);
+    is_definite = squares.factor(squares.even_share(G.size()), std::move(entries), dependent_pivot);
   }
 
   void NaturalCoarseProblem::balance(const std::vector<double> &e, std::vector<double> &x) const

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/shared_factor.h"
-#include "base/dealt_numbers.h"
 #include "base/gather_entries.h"
 
 #include <Amesos_Mumps.h>
@@ -13,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -22,10 +22,11 @@ namespace taut
   class SharedFactor::Shares
   {
   public:
-    Shares(const Communicator &processes, const std::size_t n, const SymmetricEntries &entries,
-           const double smallest_pivot)
-        : processes(processes), comm(processes.of_mpi()), map(static_cast<int>(n), 0, comm),
-          A(::Copy, map, 0), x(map), b(map), problem(&A, &x, &b), scale(n, 0.)
+    Shares(const Communicator &processes, const std::size_t n, const std::size_t n_own,
+           const SymmetricEntries &entries, const double smallest_pivot)
+        : processes(processes), comm(processes.of_mpi()),
+          map(static_cast<int>(n), static_cast<int>(n_own), 0, comm), A(::Copy, map, 0), x(map),
+          b(map), problem(&A, &x, &b), scale(n, 0.)
     {
       for (std::size_t e = 0; e < entries.size(); ++e)
         if (entries.row[e] == entries.column[e])
@@ -57,17 +58,17 @@ namespace taut
       is_definite = !processes.any(processes.is_root() && solver->GetINFOG()[n_null_pivots] > 0);
     }
 
-    void solve(std::vector<double> &values) const
+    /// On the rows of this rank.
+    void solve(double *const values) const
     {
-      const int first = map.MinMyGID();
       for (int i = 0; i < map.NumMyElements(); ++i)
-        b[i] = values[first + i] * scale[first + i];
+        b[i] = values[i] * scale[map.GID(i)];
       check(solver->Solve(), "solve");
-      std::fill(values.begin(), values.end(), 0.);
       for (int i = 0; i < map.NumMyElements(); ++i)
-        values[first + i] = x[i] * scale[first + i];
-      processes.sum(values);
+        values[i] = x[i] * scale[map.GID(i)];
     }
+
+    std::size_t n_own() const { return static_cast<std::size_t>(map.NumMyElements()); }
 
     bool is_definite = false;
 
@@ -98,7 +99,7 @@ namespace taut
   SharedFactor &SharedFactor::operator=(SharedFactor &&) noexcept = default;
   SharedFactor::~SharedFactor() = default;
 
-  bool SharedFactor::is_shared(const std::size_t n) const
+  bool SharedFactor::is_shared() const
   {
     if (processes.size() == 1 || n <= largest_whole)
       return false;
@@ -107,13 +108,17 @@ namespace taut
     return same == MPI_IDENT || same == MPI_CONGRUENT;
   }
 
-  bool SharedFactor::factor(const std::size_t n, SymmetricEntries entries,
+  bool SharedFactor::factor(const std::size_t n_own, SymmetricEntries entries,
                             const double smallest_pivot)
   {
+    std::vector<std::size_t> sizes;
+    processes.gather(n_own, sizes);
+    first = std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
+    n = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
     shares.reset();
-    if (is_shared(n))
+    if (is_shared())
     {
-      shares = std::make_unique<Shares>(processes, n, entries, smallest_pivot);
+      shares = std::make_unique<Shares>(processes, n, n_own, entries, smallest_pivot);
       return shares->is_definite;
     }
     gather(processes, entries);
@@ -121,27 +126,25 @@ namespace taut
     return whole.factor(n, entries, smallest_pivot) == n;
   }
 
-  bool SharedFactor::factor_of_all(const std::size_t n, const SymmetricEntries &entries,
-                                   const double smallest_pivot)
-  {
-    if (!is_shared(n))
-    {
-      shares.reset();
-      return whole.factor(n, entries, smallest_pivot) == n;
-    }
-    const DealtNumbers dealt(processes, n);
-    SymmetricEntries own;
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      if (dealt.rank_of(entries.row[e]) == processes.rank())
-        own.add(entries.row[e], entries.column[e], entries.value[e]);
-    return factor(n, std::move(own), smallest_pivot);
-  }
-
   void SharedFactor::solve(std::vector<double> &x) const
   {
+    if (!shares)
+      return whole.solve(x);
+    const std::size_t n_own = shares->n_own();
+    std::fill(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(first), 0.);
+    std::fill(x.begin() + static_cast<std::ptrdiff_t>(first + n_own), x.end(), 0.);
+    shares->solve(x.data() + first);
+    processes.sum(x);
+  }
+
+  void SharedFactor::solve_own(std::vector<double> &x) const
+  {
     if (shares)
-      shares->solve(x);
-    else
-      whole.solve(x);
+      return shares->solve(x.data());
+    all.assign(n, 0.);
+    std::copy(x.begin(), x.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
+    processes.sum(all);
+    whole.solve(all);
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), x.size(), x.begin());
   }
 } // namespace taut

@@ -12,11 +12,11 @@
 namespace taut
 {
   /**
-   * The factor of a sparse symmetric positive definite matrix that all ranks apply together, to
-   * vectors that each of them has whole. A small matrix is gathered, and each rank has its factor:
-   * a solve then sends nothing. Of a larger one each rank has a share of the rows and of the
-   * factor, by MUMPS through Amesos. That takes all processes of MPI_COMM_WORLD, as Amesos of
-   * Debian knows no other communicator; on fewer the matrix is gathered.
+   * The factor of a sparse symmetric positive definite matrix that all ranks apply together. A
+   * small matrix is gathered, and each rank has its factor: a solve then sends nothing. Of a larger
+   * one each rank has a share of the rows and of the factor, by MUMPS through Amesos. That takes
+   * all processes of MPI_COMM_WORLD, as Amesos of Debian knows no other communicator; on fewer the
+   * matrix is gathered.
    */
   class SharedFactor
   {
@@ -28,22 +28,34 @@ namespace taut
     ~SharedFactor();
 
     /// Factors the sum of what the ranks have of the entries. Each diagonal entry must be among
-    /// them. Returns false if a pivot is not larger than @p smallest_pivot times its diagonal
-    /// entry: the matrix is then not definite to working precision, and is not factored.
-    bool factor(std::size_t n, SymmetricEntries entries, double smallest_pivot);
+    /// them. @p n_own: rows of this rank, a stretch after those of the ranks before. Returns false
+    /// if a pivot is not larger than @p smallest_pivot times its diagonal entry: the matrix is then
+    /// not definite to working precision, and is not factored.
+    bool factor(std::size_t n_own, SymmetricEntries entries, double smallest_pivot);
 
-    /// As factor(), of entries that every rank has.
-    bool factor_of_all(std::size_t n, const SymmetricEntries &entries, double smallest_pivot);
-
-    /// x = A^-1 x of the matrix factored last.
+    /// x = A^-1 x of the matrix factored last, on all rows.
     void solve(std::vector<double> &x) const;
+
+    /// The same on the rows of this rank, of what each rank has there.
+    void solve_own(std::vector<double> &x) const;
+
+    /// Of @p n rows those that a rank has if they are dealt evenly.
+    std::size_t even_share(std::size_t n) const
+    {
+      return n * (processes.rank() + 1) / processes.size() -
+             n * processes.rank() / processes.size();
+    }
+
+    /// The first row of this rank.
+    std::size_t first_row() const { return first; }
 
   private:
     class Shares;
-    bool is_shared(std::size_t n) const;
+    bool is_shared() const;
 
     Communicator processes;
-    std::size_t largest_whole;
+    std::size_t largest_whole, n = 0, first = 0;
+    mutable std::vector<double> all; ///< rows
     SparseCholesky whole{CholeskyMethod::automatic};
     std::unique_ptr<Shares> shares; ///< none: the factor is whole
   };

@@ -58,7 +58,7 @@ int main(int argc, char **argv)
         }
     taut::SharedFactor factor(processes, argv[2] == std::string("whole") ? rows : 0);
     const double begin = seconds();
-    const bool is_definite = factor.factor(rows, share, 1e-12);
+    const bool is_definite = factor.factor(factor.even_share(rows), share, 1e-12);
     const double factored = seconds();
     std::vector<double> x(rows, 1.);
     constexpr int n_solves = 5;
