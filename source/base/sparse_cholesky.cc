@@ -303,9 +303,9 @@ namespace taut
     w.matrix = matrix;
     if (w.factors)
       cholmod_factorize(matrix, w.factors, &w.common);
-    cholmod_sparse_xtype(CHOLMOD_PATTERN, matrix, &w.common);
     if (!w.factors || w.common.status < CHOLMOD_OK)
       fail(w.common, "factor a matrix");
+    cholmod_sparse_xtype(CHOLMOD_PATTERN, matrix, &w.common);
     return w.first_bad_pivot(smallest_pivot);
   }
 

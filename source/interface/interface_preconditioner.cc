@@ -286,12 +286,13 @@ namespace taut
   {
     const Communicator &processes = owners->communicator();
     const std::vector<std::size_t> &held = owners->held();
-    std::vector<char> elastic(held.size());
+    std::vector<std::size_t> elastic;
     for (std::size_t p = 0; p < held.size(); ++p)
-      elastic[p] = springs[p] > 0.;
+      if (springs[p] > 0.)
+        elastic.push_back(held[p]);
     const bool is_same = own_rows && pattern.row == products.row &&
                          pattern.column == products.column && owned == owners->owned() &&
-                         has_spring == elastic;
+                         with_springs == elastic;
     if (!processes.any(!is_same))
       return;
     const auto position = [&](const int number)
@@ -344,12 +345,10 @@ namespace taut
     for (std::size_t e = 0; e < rows_of_blocks.size(); ++e)
       if (seen.count(rows_of_blocks.row[e]) > 0)
         kept.push_back(rows_of_blocks.column[e]);
-    for (std::size_t p = 0; p < held.size(); ++p)
-      if (elastic[p])
-        kept.push_back(held[p]);
+    kept.insert(kept.end(), elastic.begin(), elastic.end());
     sort_unique(kept);
     own_rows = std::make_unique<const RowMap>(*owners, kept);
-    has_spring = std::move(elastic);
+    with_springs = std::move(elastic);
     pattern = products;
     owned = owners->owned();
   }

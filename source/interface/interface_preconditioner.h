@@ -139,7 +139,7 @@ namespace taut
     // Of one of several ranks.
     std::unique_ptr<const RowMap> own_rows; ///< holds the rows of blocks()
     MatrixEntries pattern;                  ///< of the products that they follow from
-    std::vector<char> has_spring;           ///< a held row, then
+    std::vector<std::size_t> with_springs;  ///< held rows then
     std::vector<std::size_t> owned;         ///< rows of the owners then
 
     /// @p motion and @p force: of the DoFs of T; @p jump and @p residual: of the rows of blocks();

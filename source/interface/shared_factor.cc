@@ -12,13 +12,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace taut
 {
-  /// Rows and factor of a matrix, scaled to a diagonal of 1, of which each rank has a share.
+  /// Rows and factor LU of a matrix, scaled to a diagonal of 1, of which each rank has a share.
+  /// Amesos hands MUMPS no symmetric matrices.
   class SharedFactor::Shares
   {
   public:
@@ -45,17 +47,30 @@ namespace taut
       check(A.GlobalAssemble(), "gather rows for");
       solver = std::make_unique<Amesos_Mumps>(problem);
       Teuchos::ParameterList parameters;
-      parameters.set("MaxProcs", -1); // all
-      parameters.set("MatrixProperty", "symmetric");
+      parameters.set("MaxProcs", -3); // all
       solver->SetParameters(parameters);
-      constexpr int finds_null_pivots = 24, more_memory = 14, least_pivot = 3;
+      // ScaLAPACK, which would factor the last front, finds no null pivots.
+      constexpr int finds_null_pivots = 24, last_front_without_scalapack = 13, more_memory = 14,
+                    least_pivot = 3;
       solver->SetICNTL(finds_null_pivots, 1);
-      solver->SetICNTL(more_memory, 50); // per cent above the estimate, for pivots that are delayed
+      solver->SetICNTL(last_front_without_scalapack, 1);
       solver->SetCNTL(least_pivot, -smallest_pivot); // negative: not times a norm
       check(solver->SymbolicFactorization(), "order");
-      check(solver->NumericFactorization(), "factor");
+      // Room above the estimate [%], for pivots that are delayed.
+      constexpr int first_room = 50, most_room = 800, too_little[] = {-8, -9}, singular = -10;
+      int error = 0;
+      for (int room = first_room; room <= most_room; room *= 2)
+      {
+        solver->SetICNTL(more_memory, room);
+        error = solver->NumericFactorization();
+        if (std::find(std::begin(too_little), std::end(too_little), status()) ==
+            std::end(too_little))
+          break;
+      }
+      if (status() != singular)
+        check(error, "factor");
       constexpr int n_null_pivots = 28 - 1;
-      is_definite = !processes.any(processes.is_root() && solver->GetINFOG()[n_null_pivots] > 0);
+      is_definite = status() >= 0 && solver->GetINFOG()[n_null_pivots] == 0;
     }
 
     /// On the rows of this rank.
@@ -63,7 +78,8 @@ namespace taut
     {
       for (int i = 0; i < map.NumMyElements(); ++i)
         b[i] = values[i] * scale[map.GID(i)];
-      check(solver->Solve(), "solve");
+      solver->Solve(); // which returns no error
+      check(std::min(status(), 0), "solve");
       for (int i = 0; i < map.NumMyElements(); ++i)
         values[i] = x[i] * scale[map.GID(i)];
     }
@@ -73,6 +89,9 @@ namespace taut
     bool is_definite = false;
 
   private:
+    /// That of the last call of MUMPS, on all ranks; negative: an error.
+    int status() const { return solver->GetINFOG()[0]; }
+
     static void check(const int error, const char *const what)
     {
       if (error != 0)

@@ -14,9 +14,8 @@ namespace taut
   /**
    * The factor of a sparse symmetric positive definite matrix that all ranks apply together. A
    * small matrix is gathered, and each rank has its factor: a solve then sends nothing. Of a larger
-   * one each rank has a share of the rows and of the factor, by MUMPS through Amesos. That takes
-   * all processes of MPI_COMM_WORLD, as Amesos of Debian knows no other communicator; on fewer the
-   * matrix is gathered.
+   * one each rank has a share of the rows and of the factor, by MUMPS through Amesos, if they are
+   * all processes of MPI_COMM_WORLD: some builds of Amesos know no other communicator.
    */
   class SharedFactor
   {

@@ -414,19 +414,15 @@ namespace taut
   void distribute_bodies(const Scene &scene, const PartitionParameters &parameters,
                          const double n_steps, const Communicator &processes, const bool tuned_blas)
   {
-    if (processes.size() == 1 || parameters.method != "METIS")
-      return;
-    std::size_t least = 0;
-    if (parameters.n_substructures == "automatic")
-    {
-      if (n_steps > most_solves)
-        return;
-      least = least_dofs_to_cut(tuned_blas);
-    }
-    else if (number_of_parts(parameters.n_substructures) < processes.size())
-      return;
+    const bool is_automatic = parameters.n_substructures == "automatic",
+               is_shared =
+                   processes.size() > 1 && parameters.method == "METIS" &&
+                   (is_automatic ? n_steps <= most_solves
+                                 : number_of_parts(parameters.n_substructures) >= processes.size());
     for (const CustomBody &body : scene.bodies)
-      body.type->distribute({body.name, body.origin, scene.gravity}, processes, least);
+      body.type->distribute({body.name, body.origin, scene.gravity},
+                            is_shared ? processes : Communicator(),
+                            is_automatic ? least_dofs_to_cut(tuned_blas) : 0);
   }
 
   NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps,

@@ -239,6 +239,8 @@ namespace taut
       return nullptr;
 #ifdef DEAL_II_WITH_P4EST
     const bool is_asked_for = distribution == "p4est";
+    if (!is_asked_for && refinements == 0)
+      return nullptr;
     const auto n = static_cast<double>(refinements);
     dealii::Triangulation<dim> coarse;
     make_coarse(coarse, origin);
@@ -252,8 +254,7 @@ namespace taut
     const double n_cells = coarse.n_active_cells() * std::pow(2., dim * n),
                  n_nodes = coarse.n_active_cells() *
                            std::pow(std::pow(2., n) * static_cast<double>(degree), dim);
-    if (dim * n_nodes < least_dofs ||
-        (!is_asked_for && (refinements == 0 || n_cells < least_cells_for_p4est)))
+    if (dim * n_nodes < least_dofs || (!is_asked_for && n_cells < least_cells_for_p4est))
       return nullptr;
     start_p4est();
     auto cells =

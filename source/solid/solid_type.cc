@@ -124,7 +124,8 @@ namespace taut
         if (is_distributed) // by an earlier run
           made.reset();
         is_distributed = false;
-        if (!entries.can_be_distributed() || (entries.dimension == 2 && least_dofs > 0))
+        if (processes.size() == 1 || !entries.can_be_distributed() ||
+            (entries.dimension == 2 && least_dofs > 0))
           return;
         const std::string &origin = setting.origin;
         const auto n = static_cast<double>(least_dofs);
