@@ -2,6 +2,8 @@
 #include "interface/shared_factor.h"
 #include "base/gather_entries.h"
 
+#include <Amesos_config.h>
+#ifdef HAVE_AMESOS_MUMPS
 #include <Amesos_Mumps.h>
 #include <Epetra_FECrsMatrix.h>
 #include <Epetra_LinearProblem.h>
@@ -9,6 +11,7 @@
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +22,9 @@
 
 namespace taut
 {
+#ifdef HAVE_AMESOS_MUMPS
+  constexpr bool has_mumps = true;
+
   /// Rows and factor LU of a matrix, scaled to a diagonal of 1, of which each rank has a share.
   /// Amesos hands MUMPS no symmetric matrices.
   class SharedFactor::Shares
@@ -109,6 +115,20 @@ namespace taut
     std::vector<double> scale;
   };
 
+#else
+  constexpr bool has_mumps = false;
+
+  /// No matrix is shared.
+  class SharedFactor::Shares
+  {
+  public:
+    Shares(const Communicator &, std::size_t, std::size_t, const SymmetricEntries &, double) {}
+    void solve(double *) const {}
+    std::size_t n_own() const { return 0; }
+    bool is_definite = false;
+  };
+#endif
+
   SharedFactor::SharedFactor(const Communicator &processes, const std::size_t largest_whole)
       : processes(processes), largest_whole(largest_whole)
   {
@@ -120,7 +140,7 @@ namespace taut
 
   bool SharedFactor::is_shared() const
   {
-    if (processes.size() == 1 || n <= largest_whole)
+    if (!has_mumps || processes.size() == 1 || n <= largest_whole)
       return false;
     int same = MPI_UNEQUAL;
     MPI_Comm_compare(processes.of_mpi(), MPI_COMM_WORLD, &same);

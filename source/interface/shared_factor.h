@@ -15,7 +15,8 @@ namespace taut
    * The factor of a sparse symmetric positive definite matrix that all ranks apply together. A
    * small matrix is gathered, and each rank has its factor: a solve then sends nothing. Of a larger
    * one each rank has a share of the rows and of the factor, by MUMPS through Amesos, if they are
-   * all processes of MPI_COMM_WORLD: some builds of Amesos know no other communicator.
+   * all processes of MPI_COMM_WORLD: some builds of Amesos know no other communicator,
+   * and some have no MUMPS.
    */
   class SharedFactor
   {

@@ -27,6 +27,7 @@
 #include <array>
 #include <memory>
 #include <regex>
+#include <sstream>
 
 using namespace verification;
 
@@ -429,6 +430,27 @@ TEST(Ranks, cells_of_a_solid_are_on_one_rank_each)
   {
     expect_shared(block(""), parts + shared_by("block", distribution));
     expect_shared(cube_on_floor(2, 2), parts + shared_by("cube", distribution));
+  }
+}
+
+// Claim: a run of a process by itself has the whole mesh, after a run of all ranks with the same
+// parameters. Expected: all cells.
+TEST(Ranks, cells_are_on_each_rank_again_for_a_run_of_its_own)
+{
+  for (const std::string &distribution : distributions)
+  {
+    Session session(block(""),
+                    Overrides{"Partition/Number of substructures=8", "Output/Field interval=0"} +
+                        shared_by("block", distribution),
+                    world());
+    const taut::CustomBody &body = session.simulation().scene().bodies[0];
+    const auto is_distributed = [&] {
+      return body.type->division({body.name, body.origin, {}})->is_distributed();
+    };
+    EXPECT_EQ(is_distributed(), world().size() > 1);
+    std::ostringstream log;
+    const taut::Simulation alone(session.parameters(), log, taut::Communicator());
+    EXPECT_FALSE(is_distributed());
   }
 }
 

@@ -48,8 +48,8 @@ namespace taut
      * Called by all ranks of a run together, before anything else is asked for, if the ranks may
      * share the mesh of the body, for a mesh that is too large for a rank: division() then has the
      * cells of this rank, see DivisibleBody::processes(). Of more than 0 @p least_dofs only a body
-     * in space with as many DoFs is shared. Does nothing by default. Throws EntryError on all
-     * ranks.
+     * in space with as many DoFs is shared. With one process every rank has the whole body,
+     * whatever an earlier run did. Does nothing by default. Throws EntryError on all ranks.
      */
     virtual void distribute(const BodySetting &, const Communicator &,
                             std::size_t /*least_dofs*/) const
