@@ -103,6 +103,22 @@ namespace taut
       return result;
     }
 
+    /// Takes a matrix, and orders it unless it has the pattern of the last one.
+    void order(const std::size_t n, const SymmetricEntries &entries)
+    {
+      cholmod_sparse *const next = compressed(n, entries);
+      const bool is_new = !factors || !has_pattern_of(*next);
+      cholmod_free_sparse(&matrix, &common);
+      matrix = next;
+      if (!is_new)
+        return;
+      cholmod_free_factor(&factors, &common);
+      factors = cholmod_analyze(matrix, &common);
+      if (!factors)
+        fail(common, "order a matrix");
+      n_of_factor = static_cast<std::size_t>(common.lnz);
+    }
+
     /// True if @p other has the pattern of the last matrix.
     bool has_pattern_of(const cholmod_sparse &other) const
     {
@@ -255,6 +271,7 @@ namespace taut
     cholmod_common common;
     cholmod_sparse *matrix = nullptr; ///< pattern of the lower triangle factored last
     cholmod_factor *factors = nullptr;
+    std::size_t n_of_factor = 0; ///< entries
     cholmod_dense *result = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;
     std::vector<double> diagonal;
 
@@ -293,20 +310,21 @@ namespace taut
       cholmod_free_sparse(&w.matrix, &w.common);
       return 0;
     }
-    cholmod_sparse *matrix = w.compressed(n, entries);
-    if (!w.factors || !w.has_pattern_of(*matrix))
-    {
-      cholmod_free_factor(&w.factors, &w.common);
-      w.factors = cholmod_analyze(matrix, &w.common);
-    }
-    cholmod_free_sparse(&w.matrix, &w.common);
-    w.matrix = matrix;
-    if (w.factors)
-      cholmod_factorize(matrix, w.factors, &w.common);
-    if (!w.factors || w.common.status < CHOLMOD_OK)
+    w.order(n, entries);
+    if (!cholmod_factorize(w.matrix, w.factors, &w.common) || w.common.status < CHOLMOD_OK)
       fail(w.common, "factor a matrix");
-    cholmod_sparse_xtype(CHOLMOD_PATTERN, matrix, &w.common);
+    cholmod_sparse_xtype(CHOLMOD_PATTERN, w.matrix, &w.common);
     return w.first_bad_pivot(smallest_pivot);
+  }
+
+  std::size_t SparseCholesky::order(const std::size_t n, const SymmetricEntries &positions)
+  {
+    if (n == 0)
+      return 0;
+    Workspace &w = *work;
+    w.order(n, positions);
+    cholmod_sparse_xtype(CHOLMOD_PATTERN, w.matrix, &w.common);
+    return w.n_of_factor;
   }
 
   void SparseCholesky::solve(std::vector<double> &x) const
@@ -390,10 +408,7 @@ namespace taut
       return as_given;
     }
     SparseCholesky::Workspace w(CholeskyMethod::simplicial);
-    w.matrix = w.compressed(n, positions);
-    w.factors = cholmod_analyze(w.matrix, &w.common);
-    if (!w.factors)
-      fail(w.common, "order a matrix");
+    w.order(n, positions);
     const auto *order = static_cast<const int *>(w.factors->Perm);
     return std::vector<unsigned int>(order, order + n);
   }

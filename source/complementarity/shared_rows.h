@@ -2,6 +2,8 @@
 #ifndef taut_shared_rows_h
 #define taut_shared_rows_h
 
+#include <taut/base/sparse_cholesky.h>
+
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
@@ -32,9 +34,6 @@ namespace taut
 
     virtual bool is_own(std::size_t i) const = 0;
 
-    /// Whether no other rank has the row.
-    virtual bool is_alone(std::size_t i) const = 0;
-
     /// The largest value of all ranks, not-a-number if one is; and for each entry of vectors of one
     /// length on all ranks.
     virtual double max(double value) const = 0;
@@ -46,6 +45,10 @@ namespace taut
     /// Each entry of vectors over the rows becomes the sum of what the ranks that have the row have
     /// there.
     virtual void sum_rows(std::initializer_list<std::vector<double> *> vectors) const = 0;
+
+    /// Each rank has shares of the entries of a matrix in its rows, by the numbers of the rows, and
+    /// gets the sums over the ranks, ordered by rows and columns.
+    virtual void sum_entries(MatrixEntries &entries, std::size_t n_columns) const = 0;
 
     /// The values of all rows by their numbers, from those of a vector over the rows; and back.
     void gather(const std::vector<double> &values, std::vector<double> &all) const

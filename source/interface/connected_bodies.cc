@@ -17,26 +17,32 @@ namespace taut
         for (const Term &term : *form)
           acts_on.add(constraints.number(i), structure.number(term.substructure),
                       !connects || connects(i) ? joined : apart);
-    gather(structure.communicator(), acts_on);
-
     Groups groups(structure.all_bodies().size());
-    constexpr std::size_t none = no_link;
-    std::vector<std::size_t> first(constraints.n_of_all(), none);
+    constraints.sum_entries(acts_on, structure.all_bodies().size());
+    std::vector<std::size_t> first(constraints.size(), no_link); // body of each row
+    MatrixEntries joins;
     for (std::size_t e = 0; e < acts_on.size(); ++e)
-      if (std::size_t &other = first[acts_on.row[e]]; other == none)
-        other = acts_on.column[e];
-      else if (acts_on.value[e] == joined)
-        groups.join(acts_on.column[e], other);
+    {
+      const auto k = static_cast<std::size_t>(acts_on.column[e]);
+      if (std::size_t &other = first[constraints.index(acts_on.row[e])]; other == no_link)
+        other = k;
+      else if (acts_on.value[e] != apart && !groups.are_joined(k, other))
+      {
+        groups.join(k, other);
+        joins.add(k, other, joined);
+      }
+    }
+    if (constraints.shared()) // other ranks see other rows
+      gather(structure.communicator(), joins);
+    for (std::size_t e = 0; e < joins.size(); ++e)
+      groups.join(joins.row[e], joins.column[e]);
 
     const std::vector<std::size_t> group = groups.numbers();
     for (const std::size_t number : group)
       n = std::max(n, number + 1);
     for (std::size_t k = 0; k < structure.size(); ++k)
       body.push_back(group[structure.number(k)]);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      const std::size_t b = first[constraints.number(i)];
-      constraint.push_back(b == none ? 0 : group[b]);
-    }
+    for (const std::size_t k : first)
+      constraint.push_back(k == no_link ? 0 : group[k]);
   }
 } // namespace taut

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/gather_entries.h"
 #include "base/text.h"
 #include "interface/check_constraint.h"
 #include "interface/distributed_rows.h"
@@ -145,6 +146,14 @@ namespace taut
     if (shared_rows)
       return shared_rows->sum_rows(vectors);
     sum_together(structure.communicator(), vectors);
+  }
+
+  void Constraints::sum_entries(MatrixEntries &entries, const std::size_t n_columns) const
+  {
+    if (shared_rows)
+      return shared_rows->sum_entries(entries, n_columns);
+    taut::gather(structure.communicator(), entries);
+    entries.compress();
   }
 
   double Constraints::max(const double value) const

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "interface/distributed_rows.h"
+#include "base/gather_entries.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,9 +31,6 @@ namespace taut
   {
     for (const std::size_t number : cuts.owned())
       is_own_cut[index(number)] = 1;
-    n_holders.assign(is_own_cut.size(), 1.);
-    cuts.add_shares(n_holders.data(), owned.data());
-    cuts.copy_to_holders(owned.data(), n_holders.data());
   }
 
   std::size_t DistributedRows::number(const std::size_t i) const
@@ -87,5 +85,20 @@ namespace taut
       std::copy(sums, sums + n_common, v->begin() + n_held);
       sums += n_common;
     }
+  }
+
+  void DistributedRows::sum_entries(MatrixEntries &entries, const std::size_t n_columns) const
+  {
+    MatrixEntries of_cuts, of_common;
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      (static_cast<std::size_t>(entries.row[e]) < n_cuts ? of_cuts : of_common)
+          .add(entries.row[e], entries.column[e], entries.value[e]);
+    cuts.sum_entries(of_cuts, n_columns);
+    of_common.compress();
+    taut::gather(cuts.communicator(), of_common);
+    of_common.compress();
+    entries = std::move(of_cuts);
+    for (std::size_t e = 0; e < of_common.size(); ++e)
+      entries.add(of_common.row[e], of_common.column[e], of_common.value[e]);
   }
 } // namespace taut

@@ -29,20 +29,16 @@ namespace taut
     std::size_t number(std::size_t i) const override;
     std::size_t index(std::size_t number) const override;
     bool is_own(std::size_t i) const override;
-    bool is_alone(const std::size_t i) const override
-    {
-      return i < n_holders.size() && n_holders[i] == 1.;
-    }
     double max(double value) const override;
     void max(std::vector<double> &values) const override;
     void sum(std::vector<double> &values) const override;
     void sum_rows(std::initializer_list<std::vector<double> *> vectors) const override;
+    void sum_entries(MatrixEntries &entries, std::size_t n_columns) const override;
 
   private:
     std::size_t n_cuts, n_common;
     RowMap cuts;
     std::vector<char> is_own_cut;
-    std::vector<double> n_holders; ///< of each cut of this rank
     mutable std::vector<double> owned, common;
   };
 } // namespace taut

@@ -11,9 +11,9 @@ namespace taut
   std::vector<double> NaturalCoarseProblem::products(const std::vector<LinearForm> &forms,
                                                      const std::vector<double> &x) const
   {
-    std::vector<double> result(forms.size());
+    std::vector<double> result(n_modes, 0.);
     for (std::size_t k = 0; k < forms.size(); ++k)
-      result[k] = forms[k].dot(x);
+      result[mode[k]] = forms[k].dot(x);
     rows.communicator().sum(result);
     return result;
   }
@@ -57,8 +57,7 @@ namespace taut
       const std::vector<double> &active, const RowMap &rows, const RowBlocks &blocks,
       const std::function<void(std::vector<double> &)> &solve,
       const std::size_t largest_whole_factor)
-      : rows(rows), G(null_space.size()), scaled_G(null_space.size()),
-        squares(rows.communicator(), largest_whole_factor)
+      : rows(rows), n_modes(null_space.size()), squares(rows.communicator(), largest_whole_factor)
   {
     // Position of each row among the owned ones.
     std::vector<std::size_t> owned(blocks.rows.size(), nowhere);
@@ -66,24 +65,30 @@ namespace taut
     for (std::size_t p = 0; p < owned.size() && n_owned < rows.owned().size(); ++p)
       if (blocks.rows[p] == rows.owned()[n_owned])
         owned[p] = n_owned++;
-    std::vector<LinearForm> on_blocks(null_space.size());
-    std::vector<std::vector<std::size_t>> met(null_space.size());
-    for (std::size_t k = 0; k < null_space.size(); ++k)
+    std::vector<LinearForm> on_blocks;
+    std::vector<std::vector<std::size_t>> met;
+    for (std::size_t k = 0; k < n_modes; ++k)
     {
+      if (null_space[k].index.empty())
+        continue;
+      mode.push_back(k);
+      LinearForm &own_part = G.emplace_back(), &form = on_blocks.emplace_back();
+      std::vector<std::size_t> &its_blocks = met.emplace_back();
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
         const unsigned int p = null_space[k].index[e];
         if (active[p] == 0.)
           continue;
         const double value = null_space[k].value[e] * scale[p];
-        on_blocks[k].add(p, value);
-        met[k].push_back(blocks.block[p]);
+        form.add(p, value);
+        its_blocks.push_back(blocks.block[p]);
         if (owned[p] != nowhere)
-          G[k].add(owned[p], value);
+          own_part.add(owned[p], value);
       }
-      std::sort(met[k].begin(), met[k].end());
-      met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
+      std::sort(its_blocks.begin(), its_blocks.end());
+      its_blocks.erase(std::unique(its_blocks.begin(), its_blocks.end()), its_blocks.end());
     }
+    scaled_G.resize(mode.size());
     std::vector<std::vector<std::size_t>> members(blocks.n_blocks());
     for (std::size_t p = 0; p < blocks.rows.size(); ++p)
       members[blocks.block[p]].push_back(p);
@@ -111,25 +116,23 @@ namespace taut
       for (std::size_t e = 0; e < scaled_G[k].index.size(); ++e)
         at_row[scaled_G[k].index[e]].emplace_back(k, scaled_G[k].value[e]);
     SymmetricEntries entries;
-    for (std::size_t k = 0; k < G.size(); ++k)
-    {
-      if (rows.communicator().is_root())
-        entries.add(k, k, 0.);
+    for (std::size_t k = 0; rows.communicator().is_root() && k < n_modes; ++k)
+      entries.add(k, k, 0.);
+    for (std::size_t k = 0; k < mode.size(); ++k)
       for (std::size_t e = 0; e < G[k].index.size(); ++e)
         for (const auto &[other, value] : at_row[G[k].index[e]])
           if (other <= k)
-            entries.add(k, other, G[k].value[e] * value);
-    }
+            entries.add(mode[k], mode[other], G[k].value[e] * value);
     entries.compress();
-    is_definite = squares.factor(squares.even_share(G.size()), std::move(entries), dependent_pivot);
+    is_definite = squares.factor(squares.even_share(n_modes), std::move(entries), dependent_pivot);
   }
 
   void NaturalCoarseProblem::balance(const std::vector<double> &e, std::vector<double> &x) const
   {
     std::vector<double> amplitude = e;
     squares.solve(amplitude);
-    for (std::size_t k = 0; k < G.size(); ++k)
-      scaled_G[k].add_to(amplitude[k], x);
+    for (std::size_t k = 0; k < mode.size(); ++k)
+      scaled_G[k].add_to(amplitude[mode[k]], x);
   }
 
   void NaturalCoarseProblem::project(std::vector<double> &x) const
@@ -143,8 +146,8 @@ namespace taut
   void NaturalCoarseProblem::project_residual(std::vector<double> &r) const
   {
     const std::vector<double> amplitude = amplitudes(r);
-    for (std::size_t k = 0; k < G.size(); ++k)
-      G[k].add_to(-amplitude[k], r);
+    for (std::size_t k = 0; k < mode.size(); ++k)
+      G[k].add_to(-amplitude[mode[k]], r);
   }
 
   std::vector<double> NaturalCoarseProblem::amplitudes(const std::vector<double> &r) const

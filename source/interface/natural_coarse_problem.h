@@ -56,7 +56,9 @@ namespace taut
                                  const std::vector<double> &x) const;
 
     const RowMap &rows;
-    std::vector<LinearForm> G, scaled_G; ///< G Q^-1; of owned rows
+    std::size_t n_modes;                 ///< of all ranks
+    std::vector<std::size_t> mode;       ///< those with entries on the rows of the blocks
+    std::vector<LinearForm> G, scaled_G; ///< G Q^-1; a row for each of these modes, of owned rows
     SharedFactor squares;                ///< G Q^-1 G^T
     bool is_definite = false;
   };

@@ -130,7 +130,7 @@ namespace taut
 #endif
 
   SharedFactor::SharedFactor(const Communicator &processes, const std::size_t largest_whole)
-      : processes(processes), largest_whole(largest_whole)
+      : processes(processes), largest_whole(largest_whole), most_gathered(largest_whole)
   {
   }
 
@@ -138,9 +138,9 @@ namespace taut
   SharedFactor &SharedFactor::operator=(SharedFactor &&) noexcept = default;
   SharedFactor::~SharedFactor() = default;
 
-  bool SharedFactor::is_shared() const
+  bool SharedFactor::may_share() const
   {
-    if (!has_mumps || processes.size() == 1 || n <= largest_whole)
+    if (!has_mumps || processes.size() == 1)
       return false;
     int same = MPI_UNEQUAL;
     MPI_Comm_compare(processes.of_mpi(), MPI_COMM_WORLD, &same);
@@ -154,15 +154,21 @@ namespace taut
     processes.gather(n_own, sizes);
     first = std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
     n = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
+    processes.gather(entries.size(), sizes);
+    const std::size_t n_entries = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
     shares.reset();
-    if (is_shared())
+    if (!may_share() || n_entries <= most_gathered)
     {
-      shares = std::make_unique<Shares>(processes, n, n_own, entries, smallest_pivot);
-      return shares->is_definite;
+      SymmetricEntries all_entries = may_share() ? entries : std::move(entries);
+      gather(processes, all_entries);
+      all_entries.compress();
+      if (!may_share() || whole.order(n, all_entries) <= largest_whole)
+        return whole.factor(n, all_entries, smallest_pivot) == n;
+      most_gathered = n_entries - 1;
+      whole = SparseCholesky(CholeskyMethod::automatic);
     }
-    gather(processes, entries);
-    entries.compress();
-    return whole.factor(n, entries, smallest_pivot) == n;
+    shares = std::make_unique<Shares>(processes, n, n_own, entries, smallest_pivot);
+    return shares->is_definite;
   }
 
   void SharedFactor::solve(std::vector<double> &x) const

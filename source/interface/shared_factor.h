@@ -12,16 +12,16 @@
 namespace taut
 {
   /**
-   * The factor of a sparse symmetric positive definite matrix that all ranks apply together. A
-   * small matrix is gathered, and each rank has its factor: a solve then sends nothing. Of a larger
-   * one each rank has a share of the rows and of the factor, by MUMPS through Amesos, if they are
-   * all processes of MPI_COMM_WORLD: some builds of Amesos know no other communicator,
-   * and some have no MUMPS.
+   * The factor of a sparse symmetric positive definite matrix that all ranks apply together. If it
+   * has few entries, as that of a chain with however many rows, the matrix is gathered, and each
+   * rank has the factor: a solve then sends nothing. Of a larger one each rank has a share of the
+   * rows and of the factor, by MUMPS through Amesos, if they are all processes of MPI_COMM_WORLD:
+   * some builds of Amesos know no other communicator, and some have no MUMPS.
    */
   class SharedFactor
   {
   public:
-    /// Matrices of more than @p largest_whole rows are shared.
+    /// Matrices whose factors have more than @p largest_whole entries are shared.
     SharedFactor(const Communicator &processes, std::size_t largest_whole);
     SharedFactor(SharedFactor &&) noexcept;
     SharedFactor &operator=(SharedFactor &&) noexcept;
@@ -51,10 +51,11 @@ namespace taut
 
   private:
     class Shares;
-    bool is_shared() const;
+    bool may_share() const;
 
     Communicator processes;
     std::size_t largest_whole, n = 0, first = 0;
+    std::size_t most_gathered; ///< entries of a matrix; factors of larger ones are shared
     mutable std::vector<double> all; ///< rows
     SparseCholesky whole{CholeskyMethod::automatic};
     std::unique_ptr<Shares> shares; ///< none: the factor is whole

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time/step_equations.h"
-#include "base/gather_entries.h"
 #include "complementarity/active_set_system.h"
 #include <taut/base/exceptions.h>
 
@@ -157,25 +156,17 @@ namespace taut
                   problem.null_space_resistance.begin() +
                       static_cast<std::ptrdiff_t>(first_of_body[k]));
     processes.sum(problem.null_space_resistance);
-    // Other ranks need nothing of rows that they do not have.
-    const SharedRows *const shared = constraints.shared();
-    MatrixEntries G, own;
+    MatrixEntries G;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      MatrixEntries &to = shared && shared->is_alone(i) ? own : G;
       for (const auto &[k, form, of] : constraints[i].terms)
         for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
-          to.add(first_of_body[k] + v, constraints.number(i), form.dot(modes[k].vectors[v]));
-    }
-    gather(processes, G);
-    for (std::size_t e = 0; e < own.size(); ++e)
-      G.add(own.row[e], own.column[e], own.value[e]);
-    G.compress();
+          G.add(constraints.number(i), first_of_body[k] + v, form.dot(modes[k].vectors[v]));
+    constraints.sum_entries(G, n_modes);
     problem.null_space.assign(n_modes, {});
     for (std::size_t e = 0; e < G.size(); ++e)
-      if (const std::size_t i = constraints.index(G.column[e]);
-          G.value[e] != 0. && i != SharedRows::elsewhere)
-        problem.null_space[G.row[e]].add(static_cast<unsigned int>(i), G.value[e]);
+      if (G.value[e] != 0.)
+        problem.null_space[G.column[e]].add(static_cast<unsigned int>(constraints.index(G.row[e])),
+                                            G.value[e]);
   }
 
   void StepEquations::set_mode_loads(const BodyVectors &P,

@@ -5,6 +5,8 @@
 
 namespace taut
 {
+  SolverParameters::SolverParameters() = default;
+
   void SolverParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii;
@@ -34,9 +36,9 @@ namespace taut
         "'none': the operator alone.",
         Patterns::Selection("rigid body modes|none"));
     prm.add_parameter("Largest whole factor", interface.largest_whole_factor,
-                      "Of the matrix-free operator on several ranks: rows up to which each rank "
-                      "factors the coarse problem, or the stiffnesses with springs, whole. MUMPS "
-                      "shares larger ones out [1]",
+                      "Of the matrix-free operator on several ranks: entries up to which each rank "
+                      "has the factor of the coarse problem, or of the stiffnesses with springs, "
+                      "whole. MUMPS shares larger ones out [1]",
                       Patterns::Integer(0));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "

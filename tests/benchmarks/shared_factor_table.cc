@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <string>
 
 namespace
@@ -56,7 +57,8 @@ int main(int argc, char **argv)
                       share.add(n_modes * part + i, n_modes * part + j, i == j ? 45. : .1);
               }
         }
-    taut::SharedFactor factor(processes, argv[2] == std::string("whole") ? rows : 0);
+    constexpr std::size_t largest = std::numeric_limits<std::size_t>::max();
+    taut::SharedFactor factor(processes, argv[2] == std::string("whole") ? largest : 0);
     const double begin = seconds();
     const bool is_definite = factor.factor(factor.even_share(rows), share, 1e-12);
     const double factored = seconds();

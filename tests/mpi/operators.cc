@@ -288,9 +288,11 @@ TEST(Operators, factors_that_ranks_share_are_those_of_one)
         entries.add(i, i - 1, -c);
         entries.add(i - 1, i - 1, c);
       }
+    entries.compress();
     return entries;
   };
-  for (const std::size_t largest_whole : {n, n - 1})
+  constexpr std::size_t n_of_factor = 2 * n - 1; // of a chain
+  for (const std::size_t largest_whole : {n_of_factor, n_of_factor - 1})
   {
     taut::SharedFactor factor(processes, largest_whole);
     ASSERT_TRUE(factor.factor(factor.even_share(n), share(true), 1e-12));

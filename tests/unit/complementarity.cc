@@ -840,11 +840,11 @@ namespace
       return number < 2 ? number : elsewhere;
     }
     bool is_own(std::size_t) const override { return true; }
-    bool is_alone(std::size_t) const override { return false; }
     double max(const double value) const override { return value; }
     void max(Vector &) const override {}
     void sum(Vector &values) const override { values[2] += of_third; }
     void sum_rows(std::initializer_list<Vector *>) const override {}
+    void sum_entries(taut::MatrixEntries &, std::size_t) const override {}
 
   private:
     const double of_third;

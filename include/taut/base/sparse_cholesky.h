@@ -78,6 +78,10 @@ namespace taut
     SparseCholesky &operator=(SparseCholesky &&) noexcept;
     ~SparseCholesky();
 
+    /// Orders a matrix of @p n rows with these positions, each diagonal entry among them, for its
+    /// factor. Returns the number of entries of the factor, zeros in dense blocks aside.
+    std::size_t order(std::size_t n, const SymmetricEntries &positions);
+
     /**
      * Factors a matrix of @p n rows. Returns n, or the row whose pivot is not larger than @p
      * smallest_pivot times its diagonal entry: the matrix is then not definite to working

@@ -20,6 +20,7 @@
 namespace taut
 {
   class SharedRows;
+  struct MatrixEntries;
 
   /// The spring between the bodies and the multiplier of a constraint: rigid, linear with a damper,
   /// or with a law. Forces are in N, or N m; compressions in m, or rad.
@@ -156,6 +157,10 @@ namespace taut
     /// number_of_any().
     void sum(std::initializer_list<std::vector<double> *> vectors) const;
     void sum(std::vector<double> &values) const { sum({&values}); }
+
+    /// Each rank has shares of the entries of a matrix over the rows, by their numbers, and gets the
+    /// sums over the ranks for the rows that it has, ordered by rows and columns.
+    void sum_entries(MatrixEntries &entries, std::size_t n_columns) const;
 
     /// The largest value that any rank found on its rows, not-a-number if one is.
     double max(double value) const;

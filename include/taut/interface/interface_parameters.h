@@ -19,9 +19,9 @@ namespace taut
     /// For the matrix-free form: "rigid body modes" of the floating bodies, or "none".
     std::string coarse_space = "rigid body modes";
 
-    /// Rows of the largest matrix of the preconditioner or of a coarse problem that each of several
-    /// ranks factors whole (doc/decomposition.md).
-    unsigned int largest_whole_factor = 20000;
+    /// Entries of the largest factor, of the preconditioner or of a coarse problem, that each of
+    /// several ranks has whole (doc/decomposition.md).
+    unsigned int largest_whole_factor = 20000000;
   };
 } // namespace taut
 

@@ -57,9 +57,11 @@ namespace taut
   /// Names and numbers of the solvers in a step.
   struct SolverParameters
   {
+    SolverParameters(); // not inline: GCC 12 warns of the members of an inline one
+
     std::string local_solver = "block tridiagonal"; ///< see make_local_solver()
     InterfaceParameters interface;
-    std::string complementarity = "semismooth Newton"; ///< or "energy-ordered"
+    std::string complementarity = "semismooth Newton"; ///< or "energy-ordered", "MPRGP"
     double contact_tolerance = 1e-8;                   ///< bound of Residuals::max() [1]
 
     /// Declares the members in subsection "Solver".

@@ -14,6 +14,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from block_on_floor import block_on_floor
+
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("elements", type=int, nargs="+")
 parser.add_argument("--program", default="build/taut")
@@ -21,38 +24,6 @@ parser.add_argument("--by-amg", default="build/tests/benchmarks/cube_by_amg")
 parser.add_argument("--residual", default="1e-12", help="of the iterations with multigrid, over the loads")
 parser.add_argument("--only-taut", action="store_true")
 arguments = parser.parse_args()
-
-SCENE = """set Generator = network
-set Bodies    = cube
-set Contacts  = floor
-set Gravity   = 0, 0
-subsection Body cube
-  set Type                = solid
-  set Dimension           = 3
-  set Young's modulus     = 1e9
-  set Poisson's ratio     = 0.3
-  set Density             = 7850
-  set Symmetry boundaries = 0, 2
-  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = {n}, {n}, {n} : 0, 0, 0 : 1, 1, 1
-  end
-end
-subsection Contact floor
-  set Slave           = cube: 4
-  set Obstacle        = plane
-  set Point           = 0, 0, 0
-  set Direction       = 0, 0, 1
-  set Search distance = 0.1
-end
-subsection Output
-  set Field interval = 0
-end
-subsection Time
-  set End = 0
-end
-"""
 
 
 def run(command):
@@ -86,7 +57,7 @@ print("|---|---|---|---|---|---|---|---|---|---|---|---|")
 for n in arguments.elements:
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "cube.prm"
-        scene.write_text(SCENE.format(n=n))
+        scene.write_text(block_on_floor([n] * 3, [1] * 3))
         ours, seconds, memory = run([arguments.program, str(scene), "--set", f"Output/Folder={folder}/results"])
         closed, candidates = map(int, re.search(r"(\d+) of (\d+) nodes are closed", ours).groups())
     line = [3 * (n + 1) ** 3, candidates, closed, number(r"(\d+) parts", ours) or 1, number(r"(\d+) active-set", ours),

@@ -10,6 +10,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from block_on_floor import block_on_floor
+
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("ranks", type=int, nargs="*", default=[4, 8, 16, 32])
 parser.add_argument("--program", default="build/taut")
@@ -17,47 +20,6 @@ parser.add_argument("--hook", default="build/tests/benchmarks/libheap_peak.so")
 parser.add_argument("--mpiexec", default="mpirun")
 parser.add_argument("--refinements", type=int, default=3)
 arguments = parser.parse_args()
-
-SCENE = """set Generator = network
-set Bodies    = block
-set Contacts  = floor
-set Gravity   = 0, 0
-subsection Body block
-  set Type                = solid
-  set Dimension           = 3
-  set Young's modulus     = 1e9
-  set Poisson's ratio     = 0.3
-  set Density             = 7850
-  set Symmetry boundaries = 0, 2
-  set Pressure            = 5: 1e6*exp(-(x^2+y^2)/0.02)
-  subsection Mesh
-    set Generator    = subdivided_hyper_rectangle
-    set Arguments    = {n} : 0, 0, 0 : {n}
-    set Refinements  = {refinements}
-    set Distribution = {distribution}
-  end
-end
-subsection Contact floor
-  set Slave           = block: 4
-  set Obstacle        = plane
-  set Point           = 0, 0, 0
-  set Direction       = 0, 0, 1
-  set Search distance = 0.1
-end
-subsection Solver
-  set Interface operator = matrix-free
-end
-subsection Partition
-  set Number of substructures = {parts}
-end
-subsection Output
-  set Field interval = 0
-  set Folder = {folder}
-end
-subsection Time
-  set End = 0
-end
-"""
 
 print("| ranks | DoFs | parts | iterations, METIS | heap [MB] | iterations, p4est | heap [MB] |\n|---|---|---|---|---|---|---|")
 for ranks in arguments.ranks:
@@ -73,10 +35,12 @@ for ranks in arguments.ranks:
     for distribution in "METIS", "p4est":
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder) / "block.prm"
-            scene.write_text(SCENE.format(n=", ".join(map(str, cubes)), parts=parts, distribution=distribution,
-                                          refinements=arguments.refinements, folder=f"{folder}/results"))
+            scene.write_text(block_on_floor(cubes, cubes, arguments.refinements, distribution))
+            entries = [f"Partition/Number of substructures={parts}", "Solver/Interface operator=matrix-free",
+                       f"Output/Folder={folder}/results"]
             run = subprocess.run([arguments.mpiexec, "--oversubscribe", "-np", str(ranks), "-x", f"LD_PRELOAD={arguments.hook}",
-                                  arguments.program, scene], capture_output=True, text=True)
+                                  arguments.program, scene, *[word for entry in entries for word in ("--set", entry)]],
+                                 capture_output=True, text=True)
             if run.returncode != 0:
                 sys.exit(run.stdout + run.stderr)
             heaps = [int(found) for found in re.findall(r"heap: (\d+)", run.stderr)]

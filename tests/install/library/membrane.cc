@@ -64,9 +64,7 @@ int main(int argc, char **argv)
                                        {{system.index_here(membrane), body.displacement_of_dof(i)}})
               .gap(-obstacle(points[i])));
   const taut::Constraints contacts = system.constraints();
-  const taut::SolverParameters solver;
-  const taut::StaticState state =
-      taut::static_equilibrium(system.structure(), contacts, solver, 0.);
+  const taut::StaticState state = taut::static_equilibrium(system.structure(), contacts, {}, 0.);
 
   Vector<double> u(dofs.n_dofs()); // projected Gauss-Seidel
   for (double change = 1.; change > 1e-13;)
