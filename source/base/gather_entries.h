@@ -5,6 +5,12 @@
 #include <taut/base/communicator.h>
 #include <taut/base/sparse_cholesky.h>
 
+#include <iterator>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 namespace taut
 {
   /// Gathers the entries of a matrix over constraints: all ranks get the entries of all ranks, in
@@ -15,25 +21,18 @@ namespace taut
       return;
     std::vector<std::size_t> sizes;
     processes.gather(entries.size(), sizes);
-    std::size_t first = 0, all = 0;
-    for (std::size_t rank = 0; rank < sizes.size(); ++rank)
+    std::vector<int> n(sizes.begin(), sizes.end()), first(1, 0);
+    std::partial_sum(n.begin(), n.end(), std::back_inserter(first));
+    const auto all_of = [&](auto &values, MPI_Datatype type)
     {
-      first += rank < processes.rank() ? sizes[rank] : 0;
-      all += sizes[rank];
-    }
-    std::vector<double> packed(3 * all, 0.);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-    {
-      double *const entry = packed.data() + 3 * (first + k);
-      entry[0] = entries.row[k];
-      entry[1] = entries.column[k];
-      entry[2] = entries.value[k];
-    }
-    processes.sum(packed);
-    entries = {};
-    for (std::size_t k = 0; k < all; ++k)
-      entries.add(static_cast<std::size_t>(packed[3 * k]),
-                  static_cast<std::size_t>(packed[3 * k + 1]), packed[3 * k + 2]);
+      std::remove_reference_t<decltype(values)> all(first.back());
+      MPI_Allgatherv(values.data(), static_cast<int>(values.size()), type, all.data(), n.data(),
+                     first.data(), type, processes.of_mpi());
+      values = std::move(all);
+    };
+    all_of(entries.row, MPI_INT);
+    all_of(entries.column, MPI_INT);
+    all_of(entries.value, MPI_DOUBLE);
   }
 } // namespace taut
 

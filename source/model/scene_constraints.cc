@@ -15,13 +15,19 @@ namespace taut
 {
   namespace
   {
-    /// Appends B_i of a link with its `to` end at an attachment.
+    /// Appends B_i of a link with its `to` end at an attachment, along @p direction there.
+    void append_link(const SceneBodies &bodies, const Link &link, const Attachment &to,
+                     const Coordinates &direction, std::vector<Term> &terms)
+    {
+      const double sign = link.kind == LinkKind::dropper ? -1. : 1.;
+      bodies.motion(to, link.rotational, direction, sign, terms);
+      bodies.motion(link.from, link.rotational, link.direction, -sign, terms);
+    }
+
     void append_link(const SceneBodies &bodies, const Link &link, const Attachment &to,
                      std::vector<Term> &terms)
     {
-      const double sign = link.kind == LinkKind::dropper ? -1. : 1.;
-      bodies.motion(to, link.rotational, link.direction, sign, terms);
-      bodies.motion(link.from, link.rotational, link.direction, -sign, terms);
+      append_link(bodies, link, to, link.direction, terms);
     }
 
     LinkEnd link_end(const Scene &scene, const SceneBodies &bodies, const Attachment &at)
@@ -88,7 +94,7 @@ namespace taut
         {
           if (link.strip.empty())
             check(t);
-          append_link(bodies, link, place(t), terms);
+          append_link(bodies, link, place(t), direction(sliding_position(t)), terms);
         }
         else
           bodies.communicator().agree([&] { append_on_cable(t, terms); });
@@ -96,8 +102,11 @@ namespace taut
 
       void append_rates(const double t, std::vector<Term> &terms) const override
       {
-        if (!is_beyond(t))
-          bodies.slope(place(t), link.direction, speed(t), terms);
+        if (is_beyond(t))
+          return;
+        bodies.slope(place(t), direction(sliding_position(t)), speed(t), terms);
+        if (is_canted())
+          bodies.motion(place(t), false, turn(sliding_position(t)), speed(t), terms);
       }
 
       /// A contact on a cable: displacements count from the shape at rest, whose height the contact
@@ -105,12 +114,14 @@ namespace taut
       double gap(const double t) const override
       {
         return link.gap + link.profile(sliding_position(t), t) + (height(t) - start) +
-               height_above_strip(t);
+               height_above_strip(t) + cant_of_undeformed(sliding_position(t));
       }
 
       double profile(const double t) const override
       {
-        return link.profile.is_constant() ? 0. : link.profile(sliding_position(t), t);
+        const double s = sliding_position(t),
+                     height = link.profile.is_constant() ? 0. : link.profile(s, t);
+        return link.cant.is_constant() ? height : height + largest_stagger * std::sin(cant(s));
       }
 
       /// Whether the wire of a strip has not begun at a time, or has ended, not by rounding.
@@ -129,7 +140,7 @@ namespace taut
         if (!is_beyond(start) || is_beyond(end))
           return;
         ends_of_strip.clear();
-        append_link(bodies, link, place(start), ends_of_strip);
+        append_link(bodies, link, place(start), direction(sliding_position(start)), ends_of_strip);
         const double D = motion(ends_of_strip, start) + gap(start);
         if (!(D < -same_height))
           return;
@@ -149,8 +160,10 @@ namespace taut
       const Link link;
 
     private:
-      static constexpr double same_end = 1e-9;    ///< over the length of a wire
-      static constexpr double same_height = 1e-6; ///< of a strip and the end of a wire [m]
+      static constexpr double same_end = 1e-9;      ///< over the length of a wire
+      static constexpr double same_height = 1e-6;   ///< of a strip and the end of a wire [m]
+      static constexpr double largest_stagger = .4; ///< of usual lines [m]
+      static constexpr double along_wire = 1e-3;    ///< half of a difference over s [m]
 
       /// Position of the contact or, beyond the ends of the wire of a strip, of this end.
       double sliding_position(const double t) const
@@ -186,6 +199,43 @@ namespace taut
       }
 
       double wire_length() const { return scene.wires[link.to.index].length(); }
+
+      bool is_canted() const { return !link.cant.is_zero(); }
+      double cant(const double s) const { return link.cant(s, 0.); }
+
+      /// The direction a quarter turn further about the wire.
+      Coordinates sideways() const
+      {
+        return cross(scene.wires[link.to.index].tangent(), link.direction);
+      }
+
+      /// n at a place of the wire.
+      Coordinates direction(const double s) const
+      {
+        if (!is_canted())
+          return link.direction;
+        const double phi = cant(s);
+        return add_scaled(add_scaled({}, std::cos(phi), link.direction), std::sin(phi), sideways());
+      }
+
+      /// dn / ds [1/m].
+      Coordinates turn(const double s) const
+      {
+        const double a = std::max(0., s - along_wire), b = std::min(wire_length(), s + along_wire);
+        return add_scaled({}, 1. / (b - a), direction(b) - direction(a));
+      }
+
+      /// What the undeformed wire has along n beside its height along the direction [m].
+      double cant_of_undeformed(const double s) const
+      {
+        if (!is_canted())
+          return 0.;
+        const Coordinates at = scene.wires[link.to.index].at(s);
+        const double axis = link.strip.empty() ? height_of_wire(link, link.to.position) : foot,
+                     phi = cant(s);
+        return (std::cos(phi) - 1.) * (dot(link.direction, at) - axis) +
+               std::sin(phi) * dot(sideways(), at);
+      }
 
       /// Height of the place on the cable at rest, along the direction of the contact [m].
       double height(const double t) const

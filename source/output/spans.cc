@@ -31,12 +31,13 @@ namespace taut
       return places;
     }
 
-    std::vector<double> masts_of(const Scene &scene, const std::size_t wire)
+    /// @p droppers: links that hold the wire.
+    std::vector<double> masts_of(const Scene &scene, const std::size_t wire,
+                                 const std::vector<std::size_t> &droppers)
     {
       std::set<std::size_t> above;
-      for (const Link &link : scene.links)
-        if (is_dropper_between_wires(link) && link.to.index == wire)
-          above.insert(link.from.index);
+      for (const std::size_t l : droppers)
+        above.insert(scene.links[l].from.index);
       std::vector<double> places;
       if (above.empty())
         places = supports_of(scene, wire);
@@ -61,6 +62,16 @@ namespace taut
     {
       return place >= span.from - rounding_of_masts && place < span.to - rounding_of_masts;
     }
+
+    /// The span of a place, or their number.
+    std::size_t span_at(const std::vector<Span> &spans, const double place)
+    {
+      const auto behind =
+          std::upper_bound(spans.begin(), spans.end(), place + rounding_of_masts,
+                           [](const double s, const Span &span) { return s < span.from; });
+      return behind != spans.begin() && is_in(*(behind - 1), place) ? behind - spans.begin() - 1
+                                                                    : spans.size();
+    }
   } // namespace
 
   std::vector<SpannedWire> spanned_wires(const Scene &scene)
@@ -73,19 +84,21 @@ namespace taut
       else if (link.moving() && link.to.kind == Attachment::Kind::wire)
         wires.insert(link.to.index);
     }
+    std::vector<std::vector<std::size_t>> droppers(scene.wires.size()); // at their lower ends
+    for (std::size_t l = 0; l < scene.links.size(); ++l)
+      if (is_dropper_between_wires(scene.links[l]))
+        droppers[scene.links[l].to.index].push_back(l);
     std::vector<SpannedWire> result;
     for (const std::size_t wire : wires)
     {
       SpannedWire found{wire, scene.wires[wire].name, {}};
-      const std::vector<double> masts = masts_of(scene, wire);
+      const std::vector<double> masts = masts_of(scene, wire, droppers[wire]);
       for (std::size_t i = 1; i < masts.size(); ++i)
-      {
         found.spans.push_back({to_text(found.name, " span ", i), masts[i - 1], masts[i]});
-        for (const Link &link : scene.links)
-          if (is_dropper_between_wires(link) && link.to.index == wire &&
-              is_in(found.spans.back(), link.to.position))
-            found.spans.back().droppers.push_back(link.name);
-      }
+      for (const std::size_t l : droppers[wire])
+        if (const std::size_t i = span_at(found.spans, scene.links[l].to.position);
+            i < found.spans.size())
+          found.spans[i].droppers.push_back(l);
       if (!found.spans.empty())
         result.push_back(std::move(found));
     }

@@ -31,9 +31,13 @@ namespace taut
         contacts.back().wire = scene.links[first].to.index;
     }
     sums = contact_sums(parameters.sums, sliding_contacts(scene, rows));
+    links.reserve(scene.links.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
       {
+        if (rows[i].link >= index_of_link.size())
+          index_of_link.resize(rows[i].link + 1, no_link);
+        index_of_link[rows[i].link] = links.size();
         links.push_back({rows[i].name, rows[i].cone.may_open(), rows[i].rotational});
         LinkQuantities &link = links.back();
         link.is_dropper = rows[i].link < scene.links.size() &&
@@ -330,9 +334,8 @@ namespace taut
                          const std::vector<ContactRecord> &records) const
   {
     double n_slackenings = 0.;
-    for (const LinkQuantities &link : links)
-      if (std::count(span.droppers.begin(), span.droppers.end(), link.name) > 0)
-        n_slackenings += link.dropper.n_slackenings;
+    for (const std::size_t link : span.droppers)
+      n_slackenings += links[index_of_link[link]].dropper.n_slackenings;
     std::vector<Figure> list = {{"sag", "m", span.sag}, {"slackenings", "1", n_slackenings}};
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (const Contact &contact = contacts[c]; contact.wire == wire.wire)

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace taut
 {
@@ -27,6 +29,26 @@ namespace taut
       return name;
     }
 
+    /// Entries of the objects in a file by their names: an ordered object looks for a key from its
+    /// first one on, which takes long for all droppers of a line.
+    class Sections
+    {
+    public:
+      explicit Sections(json &root) : root(root) {}
+
+      json &operator()(const std::string &section, const std::string &name)
+      {
+        auto &entries = root[section].get_ref<json::object_t &>();
+        const auto [at, is_new] = index.emplace(std::pair(section, name), entries.size());
+        if (is_new)
+          entries.emplace_back(name, json::object());
+        return (entries.begin() + static_cast<std::ptrdiff_t>(at->second))->second;
+      }
+
+    private:
+      json &root;
+      std::map<std::pair<std::string, std::string>, std::size_t> index;
+    };
   } // namespace
 
   json json_quantity(const double value, const std::string &unit)
@@ -168,26 +190,27 @@ namespace taut
     for (const char *const section :
          {"line_constants", "sliding_contacts", "sums", "probes", "links", "supports", "spans"})
       root[section] = json::object();
+    Sections entry(root);
     for (const Contact &contact : contacts)
-      root["sliding_contacts"][contact.of.name] = Json::of(*this, contact);
+      entry("sliding_contacts", contact.of.name) = Json::of(*this, contact);
     for (const ContactSum &sum : sums)
-      root["sums"][sum.name] = Json::of(*this, sum);
+      entry("sums", sum.name) = Json::of(*this, sum);
     for (const LineConstants &line : lines)
-      root["line_constants"][line.contact]["wire"] = line.wire;
+      entry("line_constants", line.contact)["wire"] = line.wire;
     for (const SupportFigures::Figures &f : supports.of_supports())
-      root["supports"][f.name] = {{"wire", f.wire}, {"position", json_quantity(f.position, "m")}};
+      entry("supports", f.name) = {{"wire", f.wire}, {"position", json_quantity(f.position, "m")}};
     for (const SpannedWire &wire : spanned)
       for (const Span &span : wire.spans)
-        root["spans"][span.name] = {{"wire", wire.name},
-                                    {"from", json_quantity(span.from, "m")},
-                                    {"to", json_quantity(span.to, "m")}};
+        entry("spans", span.name) = {{"wire", wire.name},
+                                     {"from", json_quantity(span.from, "m")},
+                                     {"to", json_quantity(span.to, "m")}};
     for (const Item &item : items())
       if (!item.is_force) // which is above, with its ranges
       {
-        json *entry = &root;
-        for (const std::string &key : item.path)
-          entry = &(*entry)[key];
-        entry->update(Json::of(item.figures, true));
+        json *at = &entry(item.path[0], item.path[1]);
+        for (std::size_t i = 2; i < item.path.size(); ++i)
+          at = &(*at)[item.path[i]];
+        at->update(Json::of(item.figures, true));
       }
     add_observers(others, root);
     root["certificate"] = Json::of_certificates(*this);

@@ -104,6 +104,11 @@ namespace taut
         "the track and beside it; wires run on chords between the masts and pull "
         "their arms. A conductor rail follows the track [1/m]",
         Anything());
+    prm.add_parameter("Cant", items.cant,
+                      "Angle of the track across, cant over gauge, positive towards z > 0: as "
+                      "Curvature. Strips of pantographs are turned by it about the axis of the "
+                      "track at the height of the contact wire [rad]",
+                      Anything());
     prm.add_parameter("Contact wires", items.n_contact_wires,
                       "2: twin contact wires side by side, each as section Contact wire says",
                       Integer(1, 2));
@@ -307,6 +312,26 @@ namespace taut
     }
   }
 
+  /// Of the track along a wire that begins at x. A rail follows its track.
+  Expression Catenary::cant_of(const Wire &wire, const double begin) const
+  {
+    const Expression cant = items.track_cant(begin);
+    if (cant.is_zero() || !wire.has_lateral)
+      return Expression();
+    if (cant.depends_on_time())
+      throw EntryError("Catenary/Cant",
+                       "'" + items.cant + "': a track does not move; write a formula in s");
+    // Twice the cant that tracks have.
+    constexpr double largest_cant = .25;
+    constexpr unsigned int n_places = 100;
+    for (unsigned int i = 0; i <= n_places; ++i)
+      if (const double s = wire.length() * i / n_places; !(std::fabs(cant(s, 0.)) < largest_cant))
+        throw EntryError("Catenary/Cant",
+                         to_text("it is ", cant(s, 0.), " at x = ", begin + s,
+                                 " m: write the angle in rad, the cant over the gauge"));
+    return cant;
+  }
+
   /// A link of a strip at x to each contact wire.
   void Catenary::add_strip(Link strip, const double x, const bool has_several, const Line &line,
                            Scene &scene) const
@@ -318,6 +343,7 @@ namespace taut
         if (has_several)
           strip.name = name + " on " + scene.wires[wire].name;
         strip.to = {Attachment::Kind::wire, wire, x - part.begin()};
+        strip.cant = cant_of(scene.wires[wire], part.begin());
         scene.links.push_back(strip);
       }
   }

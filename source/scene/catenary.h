@@ -72,6 +72,7 @@ namespace taut
     void add_masses(const std::string &name, const PantographItem &item, Scene &scene) const;
     void let_head_pitch(const std::string &name, const PantographItem &item, std::size_t head,
                         Scene &scene) const;
+    Expression cant_of(const Wire &wire, double begin) const;
     void add_strip(Link strip, double x, bool has_several, const Line &line, Scene &scene) const;
     void add_base(const std::string &name, const PantographItem &item, std::size_t first,
                   Scene &scene) const;

@@ -43,7 +43,8 @@ namespace taut
                                          });
                     });
     return items.lateral || has_stagger || !items.track_curvature().is_zero() ||
-           items.supports.has_rigid_arms() || !items.contact.wind_load("Contact wire").is_zero() ||
+           !items.track_cant().is_zero() || items.supports.has_rigid_arms() ||
+           !items.contact.wind_load("Contact wire").is_zero() ||
            !items.messenger.wind_load("Messenger wire").is_zero();
   }
 

@@ -135,6 +135,11 @@ namespace taut
     return Expression(along_wire(curvature, begin), "Catenary/Curvature");
   }
 
+  Expression LineItems::track_cant(const double begin) const
+  {
+    return Expression(along_wire(cant, begin), "Catenary/Cant");
+  }
+
   void LineSupportsItem::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Supports");

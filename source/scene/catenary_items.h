@@ -90,9 +90,11 @@ namespace taut
                                     "masses on the wires, e.g. insulators and clamps"};
     bool lateral = false;        ///< as an entry; see is_in_space
     std::string curvature = "0"; ///< of the track over x [1/m]
+    std::string cant = "0";      ///< its angle across, over x [rad]
 
     /// As LineWireItem::wind_load().
     Expression track_curvature(double begin = 0.) const;
+    Expression track_cant(double begin = 0.) const;
 
     /// Wires move along z, too.
     bool is_in_space = false;

@@ -314,6 +314,8 @@ namespace taut
         }
         else if (moves(link) || !link.profile.is_zero())
           fail(link, "Speed", what, "Speed and Height profile are for a sliding contact");
+        if (!link.cant.is_zero() && !(link.moving() && link.to.kind == Attachment::Kind::wire))
+          fail(link, "Cant", what, "it is for a sliding contact on a wire");
       }
     }
   } // namespace

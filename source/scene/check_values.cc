@@ -179,6 +179,7 @@ namespace taut
                                             "does not turn");
         of.finite(link.speed, "Speed");
         of.constant(link.profile, "Height profile");
+        of.constant(link.cant, "Cant");
         of.finite(link.form.prescribed_displacement, "Prescribed displacement");
         of.not_negative(link.form.axial_stiffness, "Axial stiffness");
         of.not_negative(link.form.mass_per_length, "Mass per length");

@@ -92,9 +92,10 @@ namespace taut
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
             l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
             l.unstressed_length, l.length_in_time, l.speed, l.travel, l.strip, l.straight,
-            l.profile, l.form.find_length, l.form.prescribed_displacement, l.form.axial_stiffness,
-            l.form.mass_per_length, l.form.pull, l.length, l.form.find_direction,
-            l.sideways.direction, l.sideways.stiffness, l.sideways.gap, l.contact_mass);
+            l.profile, l.cant, l.form.find_length, l.form.prescribed_displacement,
+            l.form.axial_stiffness, l.form.mass_per_length, l.form.pull, l.length,
+            l.form.find_direction, l.sideways.direction, l.sideways.stiffness, l.sideways.gap,
+            l.contact_mass);
       }
       void write(const Load &l)
       {

@@ -356,6 +356,7 @@ namespace taut
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
     generator->fill(scene);
+    scene.links.shrink_to_fit(); // those of a long line are large, and on each rank
     return scene;
   }
 

@@ -41,8 +41,8 @@ namespace taut
                       "whole. MUMPS shares larger ones out [1]",
                       Patterns::Integer(0));
     prm.add_parameter("Complementarity", complementarity,
-                      "Search for the closed links. 'semismooth Newton': starts from the last step "
-                      "and hands over if it cycles, to MPRGP where F is matrix-free, else to "
+                      "Search for the closed links. 'semismooth Newton': starts from the last step; "
+                      "where it cycles, MPRGP takes over if F is matrix-free, else energy-ordered. "
                       "'energy-ordered': one link at a time, the energy falls at each change; "
                       "finite, slower; hands over if it misses the tolerance. 'MPRGP': gradient "
                       "projections, which take products with F alone.",

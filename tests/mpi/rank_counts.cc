@@ -15,7 +15,8 @@
 namespace
 {
   /// Messages and bytes of this rank, sums over the ranks and the numbers in them, and calls of
-  /// MPI_Barrier, MPI_Bcast, MPI_Allgather, MPI_Rsend and MPI_Send, of which there are none.
+  /// MPI_Barrier, MPI_Bcast, MPI_Allgather, MPI_Allgatherv, MPI_Rsend and MPI_Send, of which there
+  /// are none.
   struct Counts
   {
     double messages = 0., bytes = 0., sums = 0., summed = 0., others = 0.;
@@ -126,6 +127,14 @@ extern "C" int MPI_Allgather(const void *in, int n_in, MPI_Datatype of_in, void 
 {
   ++counts.others;
   return PMPI_Allgather(in, n_in, of_in, out, n_out, of_out, processes);
+}
+
+extern "C" int MPI_Allgatherv(const void *in, int n_in, MPI_Datatype of_in, void *out,
+                              const int *n_out, const int *first, MPI_Datatype of_out,
+                              MPI_Comm processes)
+{
+  ++counts.others;
+  return PMPI_Allgatherv(in, n_in, of_in, out, n_out, first, of_out, processes);
 }
 
 extern "C" int MPI_Rsend(const void *data, int n, MPI_Datatype type, int to, int tag,

@@ -5,6 +5,8 @@
 
 #include <taut/substructure/factored_structure.h>
 
+#include <regex>
+
 using namespace verification;
 
 namespace
@@ -280,6 +282,29 @@ TEST(Ranks, shared_factors_answer_the_same)
 {
   expect_same("5 spans, shared factors", 1e-1, line(5, 1e-1, 2, 1.5), {7},
               {"Solver/Interface operator=matrix-free", "Solver/Largest whole factor=0"});
+}
+
+// Claim: the springs of links between ranks are in the preconditioner. Expected: the iterations of
+// one process with the same parts.
+TEST(Ranks, springs_between_ranks_precondition)
+{
+  const auto iterations = [](const taut::Communicator &processes)
+  {
+    Session session(scene_file("en50318_2002_250"),
+                    line(8, 1e-1, 3, 1.5) + Overrides{"Solver/Interface operator=matrix-free",
+                                                      "Partition/Method=wires"},
+                    processes);
+    session.run();
+    static const std::regex said("Conjugate gradients: ([0-9.]+) iterations a system");
+    std::smatch found;
+    const std::string log = session.log();
+    return std::regex_search(log, found, said) ? std::stod(found[1]) : 0.;
+  };
+  const double one = iterations({}), here = iterations(world());
+  if (!world().is_root())
+    return;
+  EXPECT_GT(one, 0.);
+  EXPECT_NEAR(here, one, .1 * one);
 }
 
 // Claim: so with steps that the local error chooses, which is the largest of all ranks. Expected:

@@ -4,6 +4,10 @@
 // of it, and a wire with tension T turns by L / R at each mast, by 2 T sin(L / 2R).
 #include "scene_tests.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 using namespace verification;
 
 namespace
@@ -190,8 +194,91 @@ TEST(Curves, scene_of_the_page)
   EXPECT_NEAR(sag, 5.9 * 9.81 * 1e4 / 384. / 2e5, 2e-5);
 }
 
+namespace
+{
+  /// A pantograph of one mass, pushed up by 100 N.
+  const Overrides pantograph = {"Catenary/Pantographs=p", "Catenary/Pantograph p/Masses=10",
+                                "Catenary/Pantograph p/Stiffnesses=0",
+                                "Catenary/Pantograph p/Dampings=0",
+                                "Catenary/Pantograph p/Static force=100"};
+} // namespace
+
+// Claim: a strip that the cant turns pushes the wire aside. Source: a string between its supports
+// under a point load, N cos(phi) along y, where it is held at its ends, N sin(phi) along z, where
+// arms hold it at the masts.
+TEST(Curves, a_turned_strip_pushes_wires_aside)
+{
+  constexpr double x = 125., N = 100.;
+  const auto place = [&](const Overrides &overrides)
+  {
+    std::array<double, 2> result = {};
+    run_scene(line, overrides,
+              [&](const taut::StepView &view)
+              {
+                for (std::size_t w = 0; w < view.scene.wires.size(); ++w)
+                  if (has(view.scene.wires[w].name, "contact"))
+                    result = {displacement(view, w, x), displacement(view, w, x, {0., 0., 1.})};
+              });
+    return result;
+  };
+  for (const double cant : {.1, -.05})
+  {
+    const Overrides canted = {"Catenary/Cant=" + number(cant)};
+    const auto still = place(canted),
+               lifted = place(canted + pantograph +
+                              Overrides{"Catenary/Pantograph p/Start=" + number(x)});
+    EXPECT_NEAR(lifted[0] - still[0],
+                N * std::cos(cant) * x * (6. * span - x) / 6. / span / tension, 1e-9);
+    EXPECT_NEAR(lifted[1] - still[1], N * std::sin(cant) * span / 4. / tension, 1e-9);
+  }
+}
+
+// Claim: a pantograph under a wire that is aside of the axis rises and falls with the cant.
+// Source: its height is z sin(phi) under a wire that does not give way, N = F - m w''.
+TEST(Curves, a_turned_strip_follows_the_cant)
+{
+  constexpr double z = .3, speed = 20., wave = 50., begin = 62.5, mass = 10., h = 1e-3;
+  const auto height = [&](const double t)
+  { return z * std::sin(.1 * std::sin(2. * M_PI / wave * (begin + speed * t))); };
+  Overrides run = pantograph + Overrides{"Gravity=0, 0",
+                                         "Time/End=3",
+                                         "Time/Step=1e-3",
+                                         "Statistics/Window=",
+                                         "Time/Check steps=no",
+                                         "Catenary/Cant=0.1*sin(2*pi/50*s)",
+                                         "Catenary/Contact wire/Tension=1e8",
+                                         "Catenary/Pantograph p/Speed=72",
+                                         "Catenary/Pantograph p/Start=62.5"};
+  for (const std::string aside : {"Catenary/Contact wire/Stagger=0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3",
+                                  "Catenary/Tension length a/Offset=0.3"})
+    for (const std::string stiffness : {"rigid", "1e7"})
+    {
+      std::string scene = line;
+      if (has(aside, "Offset"))
+      {
+        const std::string spans = "Number of spans = 6; Span length = 50; ";
+        scene.replace(scene.find(spans), spans.size(), "Tension lengths = a; ");
+        scene += "Catenary/Tension length a: Number of spans = 6; Span length = 50\n";
+      }
+      const Said said = say(
+          scene, run + Overrides{aside, "Catenary/Pantograph p/Contact stiffness=" + stiffness});
+      const auto &times = said.sliding.at("time [s]"), &forces = said.sliding.at("p force [N]");
+      double worst = 0.;
+      for (std::size_t i = 0; i < times.size(); ++i)
+        if (const double t = times[i]; t > .5)
+          worst = std::max(
+              worst, std::fabs(forces[i] - 100. +
+                               mass * (height(t + h) - 2. * height(t) + height(t - h)) / h / h));
+      EXPECT_LT(figure(aside + ", " + stiffness + " [N]", worst), .02) << aside << stiffness;
+    }
+}
+
 TEST(Curves, that_move_are_refused)
 {
+  EXPECT_TRUE(has(error_of([] { Session(line, pantograph + Overrides{"Catenary/Cant=0.1*t"}); }),
+                  "a track does not move"));
+  EXPECT_TRUE(has(error_of([] { Session(line, pantograph + Overrides{"Catenary/Cant=150"}); }),
+                  "write the angle in rad"));
   EXPECT_TRUE(
       has(error_of([] { Session(line, {"Catenary/Curvature=0.001*t"}).simulation().check(); }),
           "a track does not move"));

@@ -21,7 +21,7 @@ namespace taut
     std::string name;                       ///< "WIRE span NUMBER", from 1 on
     double from = 0., to = 0.;              ///< s on the wire [m]
     double sag = 0.;                        ///< at rest [m], see find_sags()
-    std::vector<std::string> droppers = {}; ///< that hold this part of the wire, from `from` on
+    std::vector<std::size_t> droppers = {}; ///< links that hold this part of the wire, from `from`
   };
 
   /// A wire with spans.

@@ -207,6 +207,7 @@ namespace taut
     std::vector<Contact> contacts;
     std::vector<ContactSum> sums;
     std::vector<LinkQuantities> links;
+    std::vector<std::size_t> index_of_link; ///< among them, of each link
     std::vector<ProbeQuantities> probes;
     SupportFigures supports;
     std::vector<double> times;

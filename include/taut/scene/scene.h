@@ -332,6 +332,11 @@ namespace taut
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 
+    /// Angle phi(s) by which the strip of a sliding contact is turned about its wire with tangent
+    /// x: it meets the wire along n = cos(phi) direction + sin(phi) x cross direction, at the axis
+    /// through z = 0 at the height of the first wire [rad]. Zero for contacts on cables.
+    Expression cant;
+
     FormFinding form;
     double length = 0.;      ///< geometric length in the static state, once known [m]
     SidewaysSpring sideways; ///< of a dropper whose direction was found
