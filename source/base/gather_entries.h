@@ -6,7 +6,9 @@
 #include <taut/base/sparse_cholesky.h>
 
 #include <iterator>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,7 +23,13 @@ namespace taut
       return;
     std::vector<std::size_t> sizes;
     processes.gather(entries.size(), sizes);
-    std::vector<int> n(sizes.begin(), sizes.end()), first(1, 0);
+    if (std::accumulate(sizes.begin(), sizes.end(), std::size_t(0)) >
+        static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throw std::runtime_error(
+          "a matrix over the constraints has more entries than MPI gathers: cut "
+          "the model into fewer parts");
+    const std::vector<int> n(sizes.begin(), sizes.end());
+    std::vector<int> first(1, 0);
     std::partial_sum(n.begin(), n.end(), std::back_inserter(first));
     const auto all_of = [&](auto &values, MPI_Datatype type)
     {

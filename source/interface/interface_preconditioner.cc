@@ -2,12 +2,12 @@
 #include "interface/interface_preconditioner.h"
 #include "base/groups.h"
 #include "base/pivots.h"
+#include "interface/rows_of_blocks.h"
 
 #include <taut/base/exceptions.h>
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 
 namespace taut
 {
@@ -21,12 +21,6 @@ namespace taut
     /// within the group do not excite its rigid body modes. It is well above rounding, and
     /// solutions do not depend on a preconditioner.
     constexpr double null_space_shift = 1e-9;
-
-    void sort_unique(std::vector<std::size_t> &values)
-    {
-      std::sort(values.begin(), values.end());
-      values.erase(std::unique(values.begin(), values.end()), values.end());
-    }
   } // namespace
 
   InterfacePreconditioner::InterfacePreconditioner(const InterfaceParameters &parameters,
@@ -277,11 +271,7 @@ namespace taut
     return {kept, groups.numbers()};
   }
 
-  /**
-   * Keeps the rows of the blocks of Q that the bodies of this rank see, and its owned rows. Rows of
-   * a block may be on ranks that do not know each other: the ranks first agree on the smallest
-   * number of each block, and its owner then tells them all rows.
-   */
+  /// Keeps the rows of the blocks of Q that the bodies of this rank see, and its owned rows.
   void InterfacePreconditioner::keep_blocks(const MatrixEntries &products)
   {
     const Communicator &processes = owners->communicator();
@@ -295,58 +285,11 @@ namespace taut
                          with_springs == elastic;
     if (!processes.any(!is_same))
       return;
-    const auto position = [&](const int number)
-    {
-      return std::lower_bound(held.begin(), held.end(), static_cast<std::size_t>(number)) -
-             held.begin();
-    };
-    Groups groups(held.size());
-    std::vector<char> is_seen(held.size(), 0);
-    for (std::size_t e = 0; e < products.size(); ++e)
-    {
-      const auto row = position(products.row[e]), column = position(products.column[e]);
-      groups.join(row, column);
-      is_seen[row] = is_seen[column] = 1;
-    }
-    const std::vector<std::vector<std::size_t>> members = groups.members();
-    std::vector<double> block(held.begin(), held.end());
-    for (bool is_changed = true; is_changed;)
-    {
-      const std::vector<double> before = block;
-      for (const std::vector<std::size_t> &rows : members)
-      {
-        double smallest = block[rows.front()];
-        for (const std::size_t p : rows)
-          smallest = std::min(smallest, block[p]);
-        for (const std::size_t p : rows)
-          block[p] = smallest;
-      }
-      owners->take_smallest(block);
-      is_changed = processes.any(block != before);
-    }
-
-    MatrixEntries rows_of_blocks;
-    std::vector<std::size_t> wanted = owners->owned();
-    for (std::size_t p = 0; p < owners->owned().size(); ++p)
-    {
-      const std::size_t at = owners->position_of_owned(p);
-      is_seen[at] = 1;
-      rows_of_blocks.add(static_cast<std::size_t>(block[at]), held[at], 1.);
-    }
-    std::set<std::size_t> seen;
-    for (std::size_t p = 0; p < held.size(); ++p)
-      if (is_seen[p])
-        seen.insert(static_cast<std::size_t>(block[p]));
-    wanted.insert(wanted.end(), seen.begin(), seen.end());
-    sort_unique(wanted);
-    RowMap(*owners, wanted).sum_entries(rows_of_blocks, constraints.n_of_all());
     own_rows.reset(); // until all are new
-    kept = owners->owned();
-    for (std::size_t e = 0; e < rows_of_blocks.size(); ++e)
-      if (seen.count(rows_of_blocks.row[e]) > 0)
-        kept.push_back(rows_of_blocks.column[e]);
+    kept = rows_of_blocks(*owners, products, constraints.n_of_all());
     kept.insert(kept.end(), elastic.begin(), elastic.end());
-    sort_unique(kept);
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     own_rows = std::make_unique<const RowMap>(*owners, kept);
     with_springs = std::move(elastic);
     pattern = products;

@@ -21,7 +21,8 @@ namespace taut
   class SharedFactor
   {
   public:
-    /// Matrices whose factors have more than @p largest_whole entries are shared.
+    /// Matrices are shared if their factors, or the shares of the ranks in them, have more than
+    /// @p largest_whole entries.
     SharedFactor(const Communicator &processes, std::size_t largest_whole);
     SharedFactor(SharedFactor &&) noexcept;
     SharedFactor &operator=(SharedFactor &&) noexcept;
@@ -55,7 +56,7 @@ namespace taut
 
     Communicator processes;
     std::size_t largest_whole, n = 0, first = 0;
-    std::size_t most_gathered; ///< entries of a matrix; factors of larger ones are shared
+    std::size_t most_gathered;       ///< entries of a matrix; factors of larger ones are shared
     mutable std::vector<double> all; ///< rows
     SparseCholesky whole{CholeskyMethod::automatic};
     std::unique_ptr<Shares> shares; ///< none: the factor is whole

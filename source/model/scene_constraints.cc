@@ -119,9 +119,7 @@ namespace taut
 
       double profile(const double t) const override
       {
-        const double s = sliding_position(t),
-                     height = link.profile.is_constant() ? 0. : link.profile(s, t);
-        return link.cant.is_constant() ? height : height + largest_stagger * std::sin(cant(s));
+        return link.profile.is_constant() ? 0. : link.profile(sliding_position(t), t);
       }
 
       /// Whether the wire of a strip has not begun at a time, or has ended, not by rounding.
@@ -160,10 +158,9 @@ namespace taut
       const Link link;
 
     private:
-      static constexpr double same_end = 1e-9;      ///< over the length of a wire
-      static constexpr double same_height = 1e-6;   ///< of a strip and the end of a wire [m]
-      static constexpr double largest_stagger = .4; ///< of usual lines [m]
-      static constexpr double along_wire = 1e-3;    ///< half of a difference over s [m]
+      static constexpr double same_end = 1e-9;    ///< over the length of a wire
+      static constexpr double same_height = 1e-6; ///< of a strip and the end of a wire [m]
+      static constexpr double along_wire = 1e-3;  ///< half of a difference over s [m]
 
       /// Position of the contact or, beyond the ends of the wire of a strip, of this end.
       double sliding_position(const double t) const
@@ -201,7 +198,7 @@ namespace taut
       double wire_length() const { return scene.wires[link.to.index].length(); }
 
       bool is_canted() const { return !link.cant.is_zero(); }
-      double cant(const double s) const { return link.cant(s, 0.); }
+      double cant(const double s) const { return link.cant(std::clamp(s, 0., wire_length()), 0.); }
 
       /// The direction a quarter turn further about the wire.
       Coordinates sideways() const

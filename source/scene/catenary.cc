@@ -312,26 +312,6 @@ namespace taut
     }
   }
 
-  /// Of the track along a wire that begins at x. A rail follows its track.
-  Expression Catenary::cant_of(const Wire &wire, const double begin) const
-  {
-    const Expression cant = items.track_cant(begin);
-    if (cant.is_zero() || !wire.has_lateral)
-      return Expression();
-    if (cant.depends_on_time())
-      throw EntryError("Catenary/Cant",
-                       "'" + items.cant + "': a track does not move; write a formula in s");
-    // Twice the cant that tracks have.
-    constexpr double largest_cant = .25;
-    constexpr unsigned int n_places = 100;
-    for (unsigned int i = 0; i <= n_places; ++i)
-      if (const double s = wire.length() * i / n_places; !(std::fabs(cant(s, 0.)) < largest_cant))
-        throw EntryError("Catenary/Cant",
-                         to_text("it is ", cant(s, 0.), " at x = ", begin + s,
-                                 " m: write the angle in rad, the cant over the gauge"));
-    return cant;
-  }
-
   /// A link of a strip at x to each contact wire.
   void Catenary::add_strip(Link strip, const double x, const bool has_several, const Line &line,
                            Scene &scene) const
@@ -343,7 +323,8 @@ namespace taut
         if (has_several)
           strip.name = name + " on " + scene.wires[wire].name;
         strip.to = {Attachment::Kind::wire, wire, x - part.begin()};
-        strip.cant = cant_of(scene.wires[wire], part.begin());
+        // A rail follows its track.
+        strip.cant = scene.wires[wire].has_lateral ? items.track_cant(part.begin()) : Expression();
         scene.links.push_back(strip);
       }
   }
@@ -389,6 +370,7 @@ namespace taut
         parse_positions(uplift_positions, "Catenary/Uplift positions");
     check_uplift_positions(uplifts, line);
     check_pantographs(line);
+    check_cant(line);
     for (std::size_t i = 0; i < line.size(); ++i)
     {
       TensionLength &part = line[i];

@@ -58,6 +58,7 @@ namespace taut
     void check_wires(const std::vector<LineItems> &of_parts) const;
     void check_uplift_positions(const std::vector<double> &positions, const Line &line) const;
     void check_pantographs(const Line &line) const;
+    void check_cant(const Line &line) const;
     /// The entry Speed of a pantograph in @p section.
     static Speed speed_of(const PantographItem &item, const std::string &section);
     static bool is_as_fast(const PantographItem &a, const PantographItem &b,
@@ -72,7 +73,6 @@ namespace taut
     void add_masses(const std::string &name, const PantographItem &item, Scene &scene) const;
     void let_head_pitch(const std::string &name, const PantographItem &item, std::size_t head,
                         Scene &scene) const;
-    Expression cant_of(const Wire &wire, double begin) const;
     void add_strip(Link strip, double x, bool has_several, const Line &line, Scene &scene) const;
     void add_base(const std::string &name, const PantographItem &item, std::size_t first,
                   Scene &scene) const;

@@ -252,4 +252,23 @@ namespace taut
                                                    "different ones");
     }
   }
+
+  void Catenary::check_cant(const Line &line) const
+  {
+    const Expression cant = items.track_cant();
+    if (cant.depends_on_time())
+      throw EntryError("Catenary/Cant",
+                       "'" + items.cant + "': a track does not move; write a formula in s");
+    // Twice the cant that tracks have.
+    constexpr double largest_cant = .25;
+    constexpr unsigned int n_places = 1000;
+    const auto [first, last] = reach(line);
+    for (unsigned int i = 0; i <= n_places && !cant.is_zero(); ++i)
+      if (const double x = first + (last - first) * i / n_places;
+          !(std::fabs(cant(x, 0.)) < largest_cant))
+        throw EntryError("Catenary/Cant",
+                         to_text("it is ", cant(x, 0.), " at x = ", x, " m, and may be ",
+                                 largest_cant,
+                                 " at most: write the angle in rad, the cant over the gauge"));
+  }
 } // namespace taut

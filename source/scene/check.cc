@@ -314,8 +314,11 @@ namespace taut
         }
         else if (moves(link) || !link.profile.is_zero())
           fail(link, "Speed", what, "Speed and Height profile are for a sliding contact");
-        if (!link.cant.is_zero() && !(link.moving() && link.to.kind == Attachment::Kind::wire))
-          fail(link, "Cant", what, "it is for a sliding contact on a wire");
+        if (!link.cant.is_zero() && !(link.moving() && link.to.kind == Attachment::Kind::wire &&
+                                      scene.wires[link.to.index].has_lateral))
+          fail(link, "Cant", what, "it is for a sliding contact on a wire that moves sideways");
+        if (link.cant.depends_on_time())
+          fail(link, "Cant", what, "a track does not move; write a formula in s");
       }
     }
   } // namespace

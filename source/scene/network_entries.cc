@@ -206,6 +206,10 @@ namespace taut
         throw UserError(
             "link '" + link.name +
             "' has a Length and a Gap that does not follow from it, which no entry says");
+      if (!link.cant.is_zero())
+        throw UserError("link '" + link.name +
+                        "' has a strip that the cant of the track turns, "
+                        "which no entry says");
       if (link.turns)
         items.set("Turns", "true");
       else

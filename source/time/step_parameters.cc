@@ -40,13 +40,14 @@ namespace taut
                       "has the factor of the coarse problem, or of the stiffnesses with springs, "
                       "whole. MUMPS shares larger ones out [1]",
                       Patterns::Integer(0));
-    prm.add_parameter("Complementarity", complementarity,
-                      "Search for the closed links. 'semismooth Newton': starts from the last step; "
-                      "where it cycles, MPRGP takes over if F is matrix-free, else energy-ordered. "
-                      "'energy-ordered': one link at a time, the energy falls at each change; "
-                      "finite, slower; hands over if it misses the tolerance. 'MPRGP': gradient "
-                      "projections, which take products with F alone.",
-                      Patterns::Selection("semismooth Newton|energy-ordered|MPRGP"));
+    prm.add_parameter(
+        "Complementarity", complementarity,
+        "Search for the closed links. 'semismooth Newton': starts from the last step; "
+        "where it cycles, MPRGP takes over if F is matrix-free, else energy-ordered. "
+        "'energy-ordered': one link at a time, the energy falls at each change; "
+        "finite, slower; hands over if it misses the tolerance. 'MPRGP': gradient "
+        "projections, which take products with F alone.",
+        Patterns::Selection("semismooth Newton|energy-ordered|MPRGP"));
     prm.add_parameter("Contact tolerance", contact_tolerance,
                       "A step whose certificate, the relative residual of its equations, is larger "
                       "than this ends the run with an error [1]",

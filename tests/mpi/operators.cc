@@ -291,8 +291,7 @@ TEST(Operators, factors_that_ranks_share_are_those_of_one)
     entries.compress();
     return entries;
   };
-  constexpr std::size_t n_of_factor = 2 * n - 1; // of a chain
-  for (const std::size_t largest_whole : {n_of_factor, n_of_factor - 1})
+  for (const std::size_t largest_whole : {n * n, std::size_t(0)})
   {
     taut::SharedFactor factor(processes, largest_whole);
     ASSERT_TRUE(factor.factor(factor.even_share(n), share(true), 1e-12));
@@ -316,6 +315,45 @@ TEST(Operators, factors_that_ranks_share_are_those_of_one)
     factor.solve_own(own);
     for (std::size_t i = 0; i < own.size(); ++i)
       EXPECT_NEAR(own[i], expected[factor.first_row() + i], 1e-12 * expected.back());
+  }
+}
+
+// A factor with fill is found too large only once the matrix is gathered and ordered. Expected: the
+// solution that the right-hand side is made of, of a square grid of springs held at each point.
+TEST(Operators, factors_with_fill_are_those_of_one)
+{
+  constexpr std::size_t m = 16, n = m * m;
+  const taut::Communicator processes(MPI_COMM_WORLD);
+  taut::SymmetricEntries share, all;
+  std::vector<double> known(n), product(n, 0.);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    known[i] = std::cos(1. + 3. * i);
+    const auto add = [&](const std::size_t row, const std::size_t column, const double value)
+    {
+      all.add(row, column, value);
+      if (row * processes.size() / n == processes.rank())
+        share.add(row, column, value);
+    };
+    add(i, i, 5.);
+    if (i % m > 0)
+      add(i, i - 1, -1.);
+    if (i >= m)
+      add(i, i - m, -1.);
+  }
+  all.vmult_add(known, product);
+  const std::size_t n_of_factor = taut::SparseCholesky().order(n, all);
+  ASSERT_GT(n_of_factor, all.size() + 1);
+  for (const std::size_t largest_whole : {n_of_factor, n_of_factor - 1})
+  {
+    taut::SharedFactor factor(processes, largest_whole);
+    for (int repeat = 0; repeat < 2; ++repeat)
+    {
+      ASSERT_TRUE(factor.factor(factor.even_share(n), share, 1e-12));
+      std::vector<double> x = product;
+      factor.solve(x);
+      expect_close(x.data(), known);
+    }
   }
 }
 

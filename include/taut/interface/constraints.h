@@ -158,8 +158,8 @@ namespace taut
     void sum(std::initializer_list<std::vector<double> *> vectors) const;
     void sum(std::vector<double> &values) const { sum({&values}); }
 
-    /// Each rank has shares of the entries of a matrix over the rows, by their numbers, and gets the
-    /// sums over the ranks for the rows that it has, ordered by rows and columns.
+    /// Each rank has shares of the entries of a matrix over the rows, by their numbers, and gets
+    /// the sums over the ranks for the rows that it has, ordered by rows and columns.
     void sum_entries(MatrixEntries &entries, std::size_t n_columns) const;
 
     /// The largest value that any rank found on its rows, not-a-number if one is.
