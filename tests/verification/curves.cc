@@ -246,7 +246,7 @@ TEST(Curves, a_turned_strip_follows_the_cant)
                                          "Statistics/Window=",
                                          "Time/Check steps=no",
                                          "Catenary/Cant=0.1*sin(2*pi/50*s)",
-                                         "Catenary/Contact wire/Tension=1e8",
+                                         "Catenary/Contact wire/Tension=1e10",
                                          "Catenary/Pantograph p/Speed=72",
                                          "Catenary/Pantograph p/Start=62.5"};
   // The second tension length takes all force from the first one, which is far above, and its wire
