@@ -117,6 +117,15 @@ extern "C" int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type
   return PMPI_Allreduce(in, out, n, type, how, processes);
 }
 
+/// And what ranks gather.
+extern "C" int MPI_Allgatherv(const void *in, int n_in, MPI_Datatype of_in, void *out,
+                              const int *n_out, const int *first, MPI_Datatype of_out,
+                              MPI_Comm processes)
+{
+  ++n_exchanges;
+  return PMPI_Allgatherv(in, n_in, of_in, out, n_out, first, of_out, processes);
+}
+
 /// Counts the bytes between neighbours.
 extern "C" int MPI_Isend(const void *data, int n, MPI_Datatype type, int to, int tag,
                          MPI_Comm processes, MPI_Request *request)
