@@ -19,12 +19,12 @@
 namespace taut
 {
   ConstraintData geometric_spring(const std::string &name, const ConstraintData &link,
-                                  const Coordinates &direction, const double stiffness,
-                                  const Coordinates &motion)
+                                  const std::size_t segment, const Coordinates &direction,
+                                  const double stiffness, const Coordinates &motion)
   {
     ConstraintData result{name, link.origin};
     result.spring.stiffness = stiffness;
-    result.terms = static_cast<const TurningDirection &>(*link.geometry).along(direction);
+    result.terms = static_cast<const TurningDirection &>(*link.geometry).along(segment, direction);
     result.gap = -dot(direction, motion);
     return result;
   }
@@ -235,6 +235,9 @@ namespace taut
     n_cuts = std::stable_partition(constraints.begin(), end_of_fixed,
                                    [](const ConstraintData &c) { return c.is_cut(); }) -
              constraints.begin();
+    first_segments.assign(1, 0);
+    for (const std::size_t i : turning_rows())
+      first_segments.push_back(first_segments.back() + turning(i).size());
   }
 
   void Constraints::arrange()
@@ -242,7 +245,7 @@ namespace taut
     entries.clear();
     sizes.clear();
     for (const std::size_t i : turning_rows())
-      constraints[i].gap = turning(i).gap(turning(i).start);
+      constraints[i].gap = turning(i).gap(turning(i).start.data());
     for (const std::size_t i : sliding_rows())
       move(i, 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -383,8 +386,8 @@ namespace taut
         if (structure[entries[e].body].is_lumped())
           count[i] += is_wanted(entries[e].body, entries[e].dof);
     for (const std::size_t i : turning_rows())
-      for (const std::vector<Term> &motion : turning(i).motion)
-        for (const Term &term : motion)
+      for (const std::vector<Term> *const motion : turning(i).forms())
+        for (const Term &term : *motion)
           for (const unsigned int dof : term.form.index)
             count[i] += is_wanted(term.substructure, dof);
     sum(count);

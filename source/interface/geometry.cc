@@ -10,17 +10,20 @@
 
 namespace taut
 {
-  TurningDirection::TurningDirection(const LinkEnd &from, const LinkEnd &to, const double push)
-      : first(from), motion(to.motion), start(to.position - from.position), length(norm(start)),
-        sign(push)
+  TurningDirection::TurningDirection(std::vector<LinkEnd> all, const double push)
+      : places(std::move(all)), sign(push)
   {
-    for (unsigned int c = 0; c < 3; ++c)
-      for (Term term : first.motion[c])
-      {
-        for (double &value : term.form.value)
-          value = -value;
-        motion[c].push_back(std::move(term));
-      }
+    for (std::size_t k = 0; k + 1 < places.size(); ++k)
+      start.push_back(places[k + 1].position - places[k].position);
+    length = distance(start.data());
+  }
+
+  double TurningDirection::distance(const Coordinates *const differences) const
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < size(); ++k)
+      sum += norm(differences[k]);
+    return sum;
   }
 
   std::string TurningDirection::fault() const
@@ -29,8 +32,9 @@ namespace taut
     { return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z); };
     if (!std::isfinite(length))
       return "its length is " + to_text(length) + " m; take a finite one";
-    if (!is_finite(first.position) || !is_finite(start))
-      return "an end is at no finite place; give its position at U = 0";
+    if (!std::all_of(places.begin(), places.end(),
+                     [&](const LinkEnd &place) { return is_finite(place.position); }))
+      return "an end or ring is at no finite place; give its position at U = 0";
     return "";
   }
 
@@ -44,60 +48,88 @@ namespace taut
 
   std::vector<const std::vector<Term> *> TurningDirection::forms() const
   {
-    return {&motion[0], &motion[1], &motion[2]};
+    std::vector<const std::vector<Term> *> result;
+    for (const LinkEnd &place : places)
+      for (const std::vector<Term> &motion : place.motion)
+        result.push_back(&motion);
+    return result;
   }
 
-  Coordinates TurningDirection::at(const Coordinates &difference) const
+  Coordinates TurningDirection::at(const std::size_t segment, const Coordinates &difference) const
   {
-    const Coordinates &d = vanishes(difference) ? start : difference;
+    const Coordinates &d = vanishes(difference) ? start[segment] : difference;
     const double size = norm(d);
     return {d.x / size, d.y / size, d.z / size};
   }
 
-  TurningDirection::Linear TurningDirection::linearised(const Coordinates &moved) const
+  TurningDirection::Linear TurningDirection::linearised(const Coordinates *const motions) const
   {
-    const Coordinates difference = add_scaled(start, 1., moved), d = at(difference);
-    return {d, norm(difference), along({sign * d.x, sign * d.y, sign * d.z}),
-            gap(difference) - sign * dot(d, moved)};
+    Linear result;
+    std::vector<Coordinates> differences;
+    double moved = 0.;
+    for (std::size_t k = 0; k < size(); ++k)
+    {
+      differences.push_back(add_scaled(start[k], 1., motions[k]));
+      result.directions.push_back(at(k, differences[k]));
+      result.distances.push_back(norm(differences[k]));
+      moved += dot(result.directions[k], motions[k]);
+    }
+    set_motion_along(*this, result.directions.data(), result.terms);
+    result.gap = gap(differences.data()) - sign * moved;
+    return result;
   }
 
-  std::vector<Term> TurningDirection::along(const Coordinates &direction) const
+  namespace
+  {
+    /// Appends the motion of a place along @p direction to the first @p n terms, with the memory of
+    /// terms behind them. A form on one body is that of one place, so that its columns have single
+    /// elements.
+    void append_motion(const LinkEnd &place, const Coordinates &direction, std::vector<Term> &terms,
+                       std::size_t &n)
+    {
+      const std::size_t begin = n;
+      for (unsigned int c = 0; c < 3; ++c)
+        for (const Term &own : place.motion[c])
+        {
+          std::size_t to = begin;
+          while (to < n && terms[to].substructure != own.substructure)
+            ++to;
+          if (to == n)
+          {
+            terms.resize(std::max(++n, terms.size()));
+            terms[to].substructure = own.substructure;
+            terms[to].body = nullptr;
+            terms[to].form.index.clear();
+            terms[to].form.value.clear();
+          }
+          for (std::size_t j = 0; j < own.form.index.size(); ++j)
+            terms[to].form.add(own.form.index[j], direction[c] * own.form.value[j]);
+        }
+    }
+  } // namespace
+
+  std::vector<Term> TurningDirection::along(const std::size_t segment,
+                                            const Coordinates &direction) const
   {
     std::vector<Term> terms;
-    set_motion_along(*this, direction, terms);
+    std::size_t n = 0;
+    append_motion(places[segment + 1], direction, terms, n);
+    append_motion(places[segment], add_scaled({}, -1., direction), terms, n);
     return terms;
   }
 
-  void set_motion_along(const TurningDirection &link, const Coordinates &direction,
+  void set_motion_along(const TurningDirection &link, const Coordinates *const directions,
                         std::vector<Term> &terms)
   {
     std::size_t n = 0;
-    for (const bool of_first : {false, true})
+    for (std::size_t place = link.places.size(); place-- > 0;)
     {
-      // A form on one body is that of one place, so that its columns have single elements.
-      const std::size_t begin = n;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::vector<Term> &motion = link.motion[c];
-        const std::size_t middle = motion.size() - link.first.motion[c].size();
-        for (std::size_t e = of_first ? middle : 0; e < (of_first ? motion.size() : middle); ++e)
-        {
-          const Term &own = motion[e];
-          std::size_t place = begin;
-          while (place < n && terms[place].substructure != own.substructure)
-            ++place;
-          if (place == n)
-          {
-            terms.resize(std::max(++n, terms.size()));
-            terms[place].substructure = own.substructure;
-            terms[place].body = nullptr;
-            terms[place].form.index.clear();
-            terms[place].form.value.clear();
-          }
-          for (std::size_t j = 0; j < own.form.index.size(); ++j)
-            terms[place].form.add(own.form.index[j], direction[c] * own.form.value[j]);
-        }
-      }
+      Coordinates sum;
+      if (place > 0)
+        sum = add_scaled(sum, link.sign, directions[place - 1]);
+      if (place < link.size())
+        sum = add_scaled(sum, -link.sign, directions[place]);
+      append_motion(link.places[place], sum, terms, n);
     }
     terms.resize(n);
   }

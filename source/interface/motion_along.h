@@ -8,8 +8,9 @@
 
 namespace taut
 {
-  /// TurningDirection::along(), with the memory of the @p terms of an earlier direction.
-  void set_motion_along(const TurningDirection &link, const Coordinates &direction,
+  /// B_i of a constraint along directions of its segments, with the memory of the @p terms of
+  /// earlier directions.
+  void set_motion_along(const TurningDirection &link, const Coordinates *directions,
                         std::vector<Term> &terms);
 } // namespace taut
 

@@ -56,14 +56,19 @@ namespace taut
   }
 
   Constraint Constraint::turning(const std::string &name, const bool unilateral, const double push,
-                                 const LinkEnd &a, const LinkEnd &b, const double length)
+                                 std::vector<LinkEnd> places, const double length)
   {
-    auto direction = std::make_shared<TurningDirection>(a, b, push);
-    if (!(direction->length > 0.))
-      throw UserError("constraint '" + name + "' turns, and its ends start at one place, " +
-                      to_text('(', a.position, ") m") +
-                      ": it has no direction. Move one of them, or take a bilateral constraint "
-                      "along each axis");
+    if (places.size() < 2)
+      throw UserError(to_text("constraint '", name, "' runs from place to place, and has ",
+                              places.size(), " of them; give two or more"));
+    auto direction = std::make_shared<TurningDirection>(std::move(places), push);
+    for (std::size_t k = 0; k < direction->size(); ++k)
+      if (!(norm(direction->start[k]) > 0.))
+        throw UserError("constraint '" + name + "' turns, and " +
+                        (direction->size() > 1 ? "two of its places are" : "its ends start at") +
+                        " one place, " + to_text('(', direction->places[k].position, ") m") +
+                        ": it has no direction. Move one of them, or take a bilateral constraint "
+                        "along each axis");
     if (!(length > 0.))
       throw UserError("constraint '" + name + "' needs a positive length, not " +
                       std::to_string(length) + " m");
@@ -76,19 +81,25 @@ namespace taut
   Constraint Constraint::rope(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                               const double length)
   {
-    return turning(name, true, -1., a, b, length);
+    return turning(name, true, -1., {a, b}, length);
+  }
+
+  Constraint Constraint::rope(const std::string &name, const std::vector<LinkEnd> &places,
+                              const double length)
+  {
+    return turning(name, true, -1., places, length);
   }
 
   Constraint Constraint::prop(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                               const double length)
   {
-    return turning(name, true, 1., a, b, length);
+    return turning(name, true, 1., {a, b}, length);
   }
 
   Constraint Constraint::rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                              const double length)
   {
-    return turning(name, false, 1., a, b, length);
+    return turning(name, false, 1., {a, b}, length);
   }
 
   Constraint &Constraint::gap(const double value)

@@ -8,16 +8,29 @@
 
 namespace taut
 {
+  void Constraints::add_motions_of_places(const BodyVectors &U, double *sum) const
+  {
+    for (const std::size_t i : turning_rows())
+      for (const LinkEnd &place : turning(i).places)
+        for (const std::vector<Term> &motion : place.motion)
+          *sum++ += evaluate(motion, U);
+  }
+
   void Constraints::copy_differences(const BodyVectors &U, std::vector<Coordinates> &to) const
   {
-    sums.clear();
-    for (const std::size_t i : turning_rows())
-      for (const std::vector<Term> &motion : turning(i).motion)
-        sums.push_back(evaluate(motion, U));
-    structure.communicator().sum(sums);
     to.clear();
-    for (std::size_t k = 0; k < sums.size(); k += 3)
-      to.push_back({sums[k], sums[k + 1], sums[k + 2]});
+    if (turning_rows().empty())
+      return;
+    sums.assign(3 * (n_segments() + turning_rows().size()), 0.);
+    add_motions_of_places(U, sums.data());
+    structure.communicator().sum(sums);
+    const double *a = sums.data();
+    for (const std::size_t i : turning_rows())
+    {
+      for (std::size_t k = 0; k < turning(i).size(); ++k, a += 3)
+        to.push_back({a[3] - a[0], a[4] - a[1], a[5] - a[2]});
+      a += 3;
+    }
   }
 
   void Constraints::copy_differences(const BodyVectors &reference, const BodyVectors &U,
@@ -26,17 +39,23 @@ namespace taut
     to.clear();
     if (turning_rows().empty())
       return;
-    sums.clear();
-    for (const BodyVectors *const X : {&reference, &U})
-      for (const std::size_t i : turning_rows())
-        for (const std::vector<Term> &motion : turning(i).motion)
-          sums.push_back(evaluate(motion, *X));
+    const std::size_t n = 3 * (n_segments() + turning_rows().size());
+    sums.assign(2 * n, 0.);
+    add_motions_of_places(reference, sums.data());
+    add_motions_of_places(U, sums.data() + n);
     structure.communicator().sum(sums);
+    const double *r = sums.data();
+    const auto difference = [](const double *const a) {
+      return Coordinates{a[3] - a[0], a[4] - a[1], a[5] - a[2]};
+    };
     for (const std::size_t i : turning_rows())
     {
-      const double *const r = sums.data() + 3 * turning_index(i), *const u = r + sums.size() / 2;
-      to.push_back(
-          add_scaled(add_scaled(turning(i).start, 1., {r[0], r[1], r[2]}), 1., {u[0], u[1], u[2]}));
+      for (const Coordinates &start : turning(i).start)
+      {
+        to.push_back(add_scaled(add_scaled(start, 1., difference(r)), 1., difference(r + n)));
+        r += 3;
+      }
+      r += 3;
     }
   }
 
@@ -55,27 +74,24 @@ namespace taut
     return result;
   }
 
-  std::array<Coordinates, 2> Constraints::ends(const std::size_t i, const BodyVectors &reference,
+  std::array<Coordinates, 2> Constraints::ends(const std::size_t i, const std::size_t segment,
+                                               const BodyVectors &reference,
                                                const BodyVectors &U) const
   {
-    const LinkEnd &first = turning(i).first;
+    const std::size_t k = segment - *segments(i).begin();
+    const LinkEnd &first = turning(i).places[k];
     double motion[3];
     for (unsigned int c = 0; c < 3; ++c)
       motion[c] = evaluate(first.motion[c], reference) + evaluate(first.motion[c], U);
     structure.communicator().sum(motion, 3);
     const Coordinates place = add_scaled(first.position, 1., {motion[0], motion[1], motion[2]});
-    return {place, add_scaled(place, 1., differences(reference, U)[turning_index(i)])};
+    return {place, add_scaled(place, 1., differences(reference, U)[segment])};
   }
 
   void Constraints::turn(const std::vector<Coordinates> &directions)
   {
-    for (std::size_t i = 0; i < directions.size(); ++i)
-    {
-      const TurningDirection &link = turning(first_turning + i);
-      const Coordinates &d = directions[i];
-      set_motion_along(link, {link.sign * d.x, link.sign * d.y, link.sign * d.z},
-                       constraints[first_turning + i].terms);
-    }
+    for (const std::size_t i : turning_rows())
+      set_motion_along(turning(i), directions.data() + *segments(i).begin(), constraints[i].terms);
     append_varying();
   }
 
@@ -84,8 +100,9 @@ namespace taut
     if (turning_rows().empty())
       return;
     std::vector<Coordinates> d = differences(reference, U);
-    for (std::size_t i = 0; i < d.size(); ++i)
-      d[i] = turning(first_turning + i).at(d[i]);
+    for (const std::size_t i : turning_rows())
+      for (const std::size_t k : segments(i))
+        d[k] = turning(i).at(k - *segments(i).begin(), d[k]);
     turn(d);
   }
 
@@ -93,15 +110,15 @@ namespace taut
   {
     const std::vector<Coordinates> motions = differences(reference);
     std::vector<ConstraintData> springs;
-    for (std::size_t k = 0; k < motions.size(); ++k)
+    for (const std::size_t i : turning_rows())
     {
-      const std::size_t i = first_turning + k;
       ConstraintData &link = constraints[i];
-      const TurningDirection::Linear linear = turning(i).linearised(motions[k]);
-      if (turning(i).sign * N[i] < 0.)
-        for (const Coordinates &direction : across(linear.direction))
-          springs.push_back(geometric_spring(link.name + " across", link, direction,
-                                             std::fabs(N[i]) / linear.distance, motions[k]));
+      const Coordinates *const moved = motions.data() + *segments(i).begin();
+      const TurningDirection::Linear linear = turning(i).linearised(moved);
+      for (std::size_t k = 0; k < turning(i).size() && turning(i).sign * N[i] < 0.; ++k)
+        for (const Coordinates &direction : across(linear.directions[k]))
+          springs.push_back(geometric_spring(link.name + " across", link, k, direction,
+                                             std::fabs(N[i]) / linear.distances[k], moved[k]));
       link.terms = linear.terms;
       link.gap = linear.gap;
       link.geometry = nullptr;

@@ -253,10 +253,7 @@ namespace taut
       }
     };
     for (const Link &link : scene.links)
-    {
-      note(link.from);
-      note(link.to);
-    }
+      Link::visit_places(link, note);
     for (const Load &load : scene.loads)
       note(load.target);
     for (const Probe &probe : scene.probes)
@@ -355,6 +352,8 @@ namespace taut
           {
             check(link.from, link.direction, link.origin, "From");
             check(link.to, link.direction, link.origin, "To");
+            for (const Attachment &ring : link.through)
+              check(ring, link.direction, link.origin, "Through");
           }
           for (const Probe &probe : scene.probes)
             check(probe.point, probe.direction, probe.origin, "Point");

@@ -75,7 +75,7 @@ namespace taut
     std::vector<double> n;
     const auto is_checked = [&](const Link &link)
     {
-      return !link.moving() && !link.rotational &&
+      return !link.moving() && !link.rotational && link.through.empty() &&
              (is_on_cable(scene, link.from) || is_on_cable(scene, link.to));
     };
     for (const Link &link : scene.links)

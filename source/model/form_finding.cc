@@ -25,20 +25,33 @@ namespace taut
         result[a] = result[b] = 1;
         is_done = false;
       };
+      const auto is_wire = [](const Attachment &at)
+      { return at.kind == Attachment::Kind::wire || at.kind == Attachment::Kind::body; };
       for (const Link &link : scene.links)
-        for (const auto &[end, other] :
-             {std::pair(link.from, link.to), std::pair(link.to, link.from)})
-          if (!link.moving() && end.kind == Attachment::Kind::mass &&
-              (other.kind == Attachment::Kind::wire || other.kind == Attachment::Kind::body))
-            result[end.index] = 1;
+        if (!link.moving() && link.any_place(is_wire))
+          Link::visit_places(link,
+                             [&](const Attachment &at)
+                             {
+                               if (at.kind == Attachment::Kind::mass)
+                                 result[at.index] = 1;
+                             });
       while (!is_done)
       {
         is_done = true;
         for (const Spring &spring : scene.springs)
           connect(spring.from, spring.to);
         for (const Link &link : scene.links)
-          if (link.from.kind == Attachment::Kind::mass && link.to.kind == Attachment::Kind::mass)
-            connect(link.from.index, link.to.index);
+        {
+          std::size_t last = ground;
+          Link::visit_places(link,
+                             [&](const Attachment &at)
+                             {
+                               if (at.kind != Attachment::Kind::mass)
+                                 return;
+                               connect(last, at.index);
+                               last = at.index;
+                             });
+        }
       }
       return result;
     }

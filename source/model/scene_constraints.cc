@@ -43,16 +43,20 @@ namespace taut
     std::shared_ptr<TurningDirection> turning_direction(const Scene &scene,
                                                         const SceneBodies &bodies, const Link &link)
     {
-      auto result = std::make_shared<TurningDirection>(link_end(scene, bodies, link.from),
-                                                       link_end(scene, bodies, link.to),
+      std::vector<LinkEnd> places;
+      Link::visit_places(link, [&](const Attachment &at)
+                         { places.push_back(link_end(scene, bodies, at)); });
+      auto result = std::make_shared<TurningDirection>(std::move(places),
                                                        link.kind == LinkKind::dropper ? -1. : 1.);
-      const double distance = result->length;
-      if (!(distance > 0.))
-        throw EntryError(link.origin, "link '" + link.name +
-                                          "' turns, and its ends start at one place, " +
-                                          to_text('(', result->first.position, ") m") +
-                                          ": it has no direction. Move one of them, or take a "
-                                          "ball joint");
+      for (std::size_t k = 0; k < result->size(); ++k)
+        if (!(norm(result->start[k]) > 0.))
+          throw EntryError(link.origin,
+                           to_text("link '", link.name, "' turns, and ",
+                                   link.through.empty() ? "its ends start at"
+                                                        : "two places next to each other are",
+                                   " one place, (", result->places[k].position,
+                                   ") m: it has no direction. Move one of them, or take a ball "
+                                   "joint"));
       if (link.unstressed_length > 0.)
         result->length = link.unstressed_length;
       else

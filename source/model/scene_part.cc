@@ -22,8 +22,19 @@ namespace taut
           if (spring.from != ground && spring.to != ground)
             connected.join(n_wires + spring.from, n_wires + spring.to);
         for (const Link &link : scene.links)
-          if (!link.moving() && link.from.kind != Kind::ground && link.to.kind != Kind::ground)
-            connected.join(number(link.from), number(link.to));
+          if (!link.moving())
+          {
+            const Attachment *last = nullptr;
+            Link::visit_places(link,
+                               [&](const Attachment &at)
+                               {
+                                 if (at.kind == Kind::ground)
+                                   return;
+                                 if (last)
+                                   connected.join(number(*last), number(at));
+                                 last = &at;
+                               });
+          }
         for (const SurfaceContact &contact : scene.contacts)
           if (contact.obstacle.shape == ObstacleSetting::Shape::none)
             connected.join(n_wires + n_masses + contact.slave.body,
@@ -103,10 +114,9 @@ namespace taut
         inner.springs.push_back(std::move(spring));
     }
     for (Link link : scene.links)
-      if (!link.moving() && (has(link.from) || has(link.to)))
+      if (!link.moving() && link.any_place(has))
       {
-        link.from = part.inside(link.from);
-        link.to = part.inside(link.to);
+        Link::visit_places(link, [&](Attachment &at) { at = part.inside(at); });
         inner.links.push_back(std::move(link));
       }
     for (SurfaceContact contact : scene.contacts)

@@ -239,13 +239,15 @@ namespace taut
           continue;
         lines.emplace_back();
         names.push_back(link.name);
-        for (const Attachment &end : {link.from, link.to})
-          if (end.kind != Attachment::Kind::ground || end.has_place)
-          {
-            lines.back().push_back(ends.size());
-            ends.push_back(sample(scene, structure, end));
-            link_of_end.push_back(i);
-          }
+        Link::visit_places(link,
+                           [&](const Attachment &end)
+                           {
+                             if (end.kind == Attachment::Kind::ground && !end.has_place)
+                               return;
+                             lines.back().push_back(ends.size());
+                             ends.push_back(sample(scene, structure, end));
+                             link_of_end.push_back(i);
+                           });
       }
       if (!moving)
         n_fixed_ends = ends.size();

@@ -175,8 +175,9 @@ namespace taut
     };
     for (const Link &link : scene.links)
     {
-      places.from.push_back(position(link.from));
-      places.to.push_back(position(link.to));
+      places.links.emplace_back();
+      Link::visit_places(link, [&](const Attachment &at)
+                         { places.links.back().push_back(position(at)); });
     }
     for (const Load &load : scene.loads)
       places.loads.push_back(position(load.target));
@@ -232,8 +233,11 @@ namespace taut
       const std::string stiffness = l.law       ? l.law->description()
                                     : l.rigid() ? "rigid"
                                                 : to_text(l.stiffness);
-      links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, places.from[i]),
-                text(scene, l.to, places.to[i]),
+      const std::vector<Coordinates> &of = places.links[i];
+      std::string to = text(scene, l.to, of.back());
+      for (std::size_t k = 0; k < l.through.size(); ++k)
+        to += (k == 0 ? " through " : ", ") + text(scene, l.through[k], of[k + 1]);
+      links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, of.front()), to,
                 l.turns ? "turns" : direction(l.rotational, l.direction), stiffness, l.gap,
                 l.unstressed_length, speed_text(l));
     }

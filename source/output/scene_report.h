@@ -13,7 +13,8 @@ namespace taut
   /// Places of points of a scene in space [m].
   struct ScenePlaces
   {
-    std::vector<Coordinates> from, to; ///< of each link; zero for a ground without a place
+    /// From end to end of each link, with its rings; zero for a ground without a place.
+    std::vector<std::vector<Coordinates>> links;
     std::vector<Coordinates> loads, probes;
     std::vector<std::vector<Coordinates>> cables; ///< a line for each body; empty for other types
   };

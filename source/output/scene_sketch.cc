@@ -186,6 +186,17 @@ namespace taut
       return lines;
     }
 
+    /// Calls @p visit with each place of all links and where it is.
+    template <typename Visit>
+    void visit_places(const Scene &scene, const ScenePlaces &places, const Visit &visit)
+    {
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+      {
+        auto at = places.links[i].begin();
+        Link::visit_places(scene.links[i], [&](const Attachment &end) { visit(end, *at++); });
+      }
+    }
+
     /// What shows body @p b, unless it is a cable: its surface or, without one, lines from the
     /// first to the other places where links act on it.
     Lines outline_of(const Scene &scene, const ScenePlaces &places, const std::size_t b)
@@ -199,11 +210,12 @@ namespace taut
       {
       }
       std::vector<Coordinates> held;
-      for (std::size_t i = 0; i < scene.links.size(); ++i)
-        for (const auto &[end, at] :
-             {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
-          if (end->kind == Attachment::Kind::body && end->index == b)
-            held.push_back(at);
+      visit_places(scene, places,
+                   [&](const Attachment &end, const Coordinates &at)
+                   {
+                     if (end.kind == Attachment::Kind::body && end.index == b)
+                       held.push_back(at);
+                   });
       Lines lines;
       for (std::size_t j = 1; j < held.size(); ++j)
         lines.emplace_back(held[0], held[j]);
@@ -234,15 +246,31 @@ namespace taut
       for (const std::vector<Coordinates> &cable : places.cables)
         for (const Coordinates &p : cable)
           sketch.include(p);
-      for (std::size_t i = 0; i < scene.links.size(); ++i)
-        for (const auto &[end, at] :
-             {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
-          if (end->kind == Attachment::Kind::body || end->has_place)
-            sketch.include(at);
+      visit_places(scene, places,
+                   [&](const Attachment &end, const Coordinates &at)
+                   {
+                     if (end.kind == Attachment::Kind::body || end.has_place)
+                       sketch.include(at);
+                   });
       const double lowest = sketch.lowest();
       for (std::size_t i = 0; i < scene.links.size(); ++i)
         if (const Link &link = scene.links[i]; is_ground(link.from) || is_ground(link.to))
-          sketch.include(ends(link, places.from[i], places.to[i], lowest).begin);
+          sketch.include(ends(link, places.links[i].front(), places.links[i].back(), lowest).begin);
+    }
+
+    /// A rope through rings, from place to place.
+    void draw_rope(const Link &link, const std::vector<Coordinates> &places, Sketch &sketch)
+    {
+      auto at = places.begin();
+      Link::visit_places(link,
+                         [&](const Attachment &end)
+                         {
+                           if (is_ground(end))
+                             sketch.ground(*at);
+                           if (at != places.begin())
+                             sketch.line(*(at - 1), *at, "stroke=\"#888\"");
+                           sketch.dot(*at++, 2.5, "fill=\"none\" stroke=\"#c33\"");
+                         });
     }
 
     void draw_link(const Link &link, const Coordinates &from, const Coordinates &to, Sketch &sketch)
@@ -301,7 +329,10 @@ namespace taut
     sketch.begin(most_at_one_place(scene.masses));
     const std::string thick = "stroke=\"black\" stroke-width=\"2\"";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
-      draw_link(scene.links[i], places.from[i], places.to[i], sketch);
+      if (scene.links[i].through.empty())
+        draw_link(scene.links[i], places.links[i].front(), places.links[i].back(), sketch);
+      else
+        draw_rope(scene.links[i], places.links[i], sketch);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {
       const std::vector<Coordinates> &cable = places.cables[b];

@@ -136,8 +136,7 @@ namespace taut
       {
         if (link.moving())
           continue;
-        note(link.from);
-        note(link.to);
+        Link::visit_places(link, [&](const Attachment &at) { note(at); });
         connect(link);
       }
       const auto note_all = [&](const std::size_t wire, const std::vector<double> &positions)
@@ -157,7 +156,8 @@ namespace taut
     void NodeGraph::connect(const Link &link)
     {
       std::vector<std::size_t> ends;
-      for (const Attachment &end : {link.from, link.to})
+      const auto add = [&](const Attachment &end)
+      {
         if (end.kind == Attachment::Kind::wire)
           ends.push_back(first[end.index] + nearest_node(nodes[end.index], end.position));
         else if (end.kind == Attachment::Kind::body && bodies[end.index] &&
@@ -170,8 +170,10 @@ namespace taut
           {
             // The error that names the link comes when the bodies are made.
           }
-      if (ends.size() == 2)
-        graph.connect(ends[0], ends[1], link_weight);
+      };
+      Link::visit_places(link, add);
+      for (std::size_t k = 1; k < ends.size(); ++k)
+        graph.connect(ends[k - 1], ends[k], link_weight);
     }
 
     void NodeGraph::note(const Attachment &end)

@@ -256,7 +256,10 @@ namespace taut
         const auto end = [](const Attachment &a)
         { return std::make_tuple(a.kind, a.index, a.position, a.place.x, a.place.y, a.place.z); };
         const Coordinates &n = link.direction;
-        return std::make_tuple(link.origin, end(link.from), end(link.to), n.x, n.y, n.z);
+        std::vector<decltype(end(link.from))> rings;
+        for (const Attachment &ring : link.through)
+          rings.push_back(end(ring));
+        return std::make_tuple(link.origin, end(link.from), end(link.to), rings, n.x, n.y, n.z);
       };
       std::set<decltype(key(scene.links[0]))> known;
       for (const Link &link : scene.links)
@@ -277,6 +280,22 @@ namespace taut
              "the length follows from the Pull or from the height; leave one of them out");
     }
 
+    void check_rings(const Scene &scene, const Link &link, const std::string &what)
+    {
+      if (link.through.empty())
+        return;
+      if (!link.turns || link.kind != LinkKind::dropper)
+        fail(link, "Through", what,
+             "it is of a rope, which only pulls; take a dropper with 'Turns = true'");
+      for (const Attachment &ring : link.through)
+      {
+        check_attachment(scene, ring, false, link, "Through", what);
+        if (ring.kind == Attachment::Kind::ground && !ring.has_place)
+          fail(link, "Through", what,
+               "a ring at the ground needs a place; write 'ground @ x, y, z'");
+      }
+    }
+
     void check_links(const Scene &scene, const double end_time)
     {
       check_repeated(scene);
@@ -287,11 +306,13 @@ namespace taut
         check_attachment(scene, link.from, link.rotational, link, "From", what);
         if (link.strip.empty())
           check_attachment(scene, link.to, link.rotational, link, "To", what);
-        if (link.from.kind == Attachment::Kind::ground && link.to.kind == Attachment::Kind::ground)
+        check_rings(scene, link, what);
+        if (!link.any_place([](const Attachment &at)
+                            { return at.kind != Attachment::Kind::ground; }))
           fail(link, "To", what, "both ends are the ground");
-        if (!link.moving() && same_point(link.from, link.to))
+        if (!link.moving() && link.through.empty() && same_point(link.from, link.to))
           fail(link, "To", what, "both ends are the same point; a link acts between two");
-        if (!can_move(scene, link, link.from) && !can_move(scene, link, link.to))
+        if (!link.any_place([&](const Attachment &at) { return can_move(scene, link, at); }))
           fail(link, link.rotational ? "Axis" : "Direction", what, "neither end can ",
                link.rotational ? "turn about" : "move along",
                " it; add motions or components, or change it");

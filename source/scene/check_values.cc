@@ -166,6 +166,8 @@ namespace taut
         const Values of(link, "link");
         of.attachment(scene, link.from, "From");
         of.attachment(scene, link.to, "To");
+        for (const Attachment &ring : link.through)
+          of.attachment(scene, ring, "Through");
         if (!link.turns)
           of.unit(link.direction, link.rotational ? "Axis" : "Direction");
         check_stiffness(link);

@@ -102,9 +102,10 @@ namespace taut
         points.insert(points.end(), mass.positions.begin(), mass.positions.end());
     for (const Link &link : scene.links)
     {
-      add(link.from);
-      if (!link.moving())
-        add(link.to);
+      if (link.moving())
+        add(link.from);
+      else
+        Link::visit_places(link, add);
     }
     for (const Load &load : scene.loads)
       if (load.kind == Load::Kind::point)

@@ -72,7 +72,7 @@ namespace taut
     };
     struct LinkItem
     {
-      std::string type = "joint", from = "ground", to, stiffness = "rigid", profile = "0";
+      std::string type = "joint", from = "ground", to, through, stiffness = "rigid", profile = "0";
       std::string law = "linear", law_points, law_formula;
       double law_range = 0.;
       std::vector<double> direction, axis, second_axis;

@@ -246,6 +246,10 @@ namespace taut
         links.set_text("joint", "Type", text_of(link.kind));
         links.set("From", text_of(scene, link.from));
         links.set("To", text_of(scene, link.to));
+        std::string rings;
+        for (const Attachment &ring : link.through)
+          rings += (rings.empty() ? "" : ", ") + text_of(scene, ring);
+        links.set_text("", "Through", rings);
         links.set_text("", "Strip", link.strip);
         write_link(links, link, scene);
       }

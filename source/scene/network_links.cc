@@ -205,6 +205,28 @@ namespace taut
                            "without bar; set it to false");
     }
 
+    /// The rings of a rope: names, each with its place if there is one, whose numbers have commas
+    /// between them, too.
+    std::vector<Attachment> parse_rings(const std::string &text, const Scene &scene,
+                                        const std::string &entry)
+    {
+      std::vector<std::string> names;
+      for (const std::string &part : text.empty() ? names : split(text, ','))
+      {
+        const bool is_number =
+            !part.empty() && part.find_first_not_of("0123456789+-.eE:") == std::string::npos;
+        if (is_number && !names.empty() && names.back().find('@') != std::string::npos)
+          names.back() += ", " + part;
+        else
+          names.push_back(part);
+      }
+      std::vector<Attachment> rings;
+      for (const std::string &name : names)
+        for (const Attachment &ring : parse_attachments(name, scene, entry))
+          rings.push_back(ring);
+      return rings;
+    }
+
     /// Throws EntryError for ends between which no such link is possible.
     void check_ends(const Link &link, const Scene &scene, const std::string &title,
                     const bool has_direction)
@@ -213,7 +235,8 @@ namespace taut
         throw EntryError(title + "/Straight", "it is of a sliding contact on a cable, whose length "
                                               "is not that of its way; set it to false");
       if (link.from.kind == Attachment::Kind::body && link.to.kind == link.from.kind &&
-          link.from.index == link.to.index && link.from.place == link.to.place)
+          link.from.index == link.to.index && link.from.place == link.to.place &&
+          link.through.empty())
         throw EntryError(title + "/To",
                          "it is the place that From is; a link is between two places");
       if (!has_direction && !link.rotational &&
@@ -411,6 +434,10 @@ namespace taut
                                     std::to_string(to.size()) +
                                     "; give equal numbers, or one of one");
       const std::size_t n = std::max(from.size(), to.size());
+      link.through = parse_rings(item.through, scene, title + "/Through");
+      if (!link.through.empty() && n > 1)
+        throw EntryError(title + "/Through",
+                         "a rope through rings has one end at From and one at To");
       for (std::size_t k = 0; k < n; ++k)
       {
         link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");

@@ -208,6 +208,11 @@ namespace taut
         "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0', or the wires "
         "over a strip, 'wire, other wire', each from below From unless a start is "
         "given; it may run beyond their ends");
+    prm.add_parameter("Through", through,
+                      "Of a rope, a dropper that Turns: rings without friction on its way from "
+                      "From to To, as From, in their order, 'ring, block @ x, y, z, ground @ x, "
+                      "y'. Its Length, Gap and Stiffness are those of the whole rope",
+                      Anything());
     prm.add_parameter("Direction", direction,
                       "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To "
                       "along it. Empty: along the straight line between the ends",

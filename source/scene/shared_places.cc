@@ -30,9 +30,10 @@ namespace taut
     {
       for (Link &link : scene.links)
       {
-        visit(link.from);
-        if (!link.moving())
-          visit(link.to);
+        if (link.moving())
+          visit(link.from);
+        else
+          Link::visit_places(link, visit);
       }
       for (Load &load : scene.loads)
         if (load.kind == Load::Kind::point)

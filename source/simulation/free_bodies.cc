@@ -103,8 +103,7 @@ namespace taut
       { return end.kind == Attachment::Kind::wire && end.index == w; };
       const bool has_link =
           std::any_of(scene.links.begin(), scene.links.end(),
-                      [&](const Link &link)
-                      { return !link.moving() && (is_here(link.from) || is_here(link.to)); });
+                      [&](const Link &link) { return !link.moving() && link.any_place(is_here); });
       if (!has_support && !has_link)
         result.push_back(to_text("wire '", wire.name, "' has a tension of ", wire.tension,
                                  " N and neither a support nor a link across it: it falls as a "

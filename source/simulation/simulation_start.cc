@@ -336,8 +336,8 @@ namespace taut
       if (!are_one_ball_joint(model.links[placed], link))
         placed = links[i].link;
       const Coordinates &at = model.links[placed].to.kind == Attachment::Kind::ground
-                                  ? places.from[placed]
-                                  : places.to[placed];
+                                  ? places.links[placed].front()
+                                  : places.links[placed].back();
       file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.distance[i];
       // A force makes droppers longer, other links shorter.
       const double elongation = link.elongation(start.multiplier[i]);
@@ -377,7 +377,7 @@ namespace taut
       if (!links[i].is_link() || !is_dropper_between_wires(model.links[links[i].link]))
         continue;
       const Link &link = model.links[links[i].link];
-      const Coordinates &at = places.to[links[i].link];
+      const Coordinates &at = places.links[links[i].link].back();
       const auto next = std::upper_bound(masts.begin(), masts.end(), at.x);
       file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
            << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1))

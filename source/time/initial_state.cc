@@ -23,8 +23,8 @@ namespace taut
       {
         const TurningDirection &turning = constraints.turning(i);
         others = others || turning.sign * N[i] > 0. || turning.length_at;
-        for (const std::vector<Term> &motion : turning.motion)
-          for (const Term &term : motion)
+        for (const std::vector<Term> *const motion : turning.forms())
+          for (const Term &term : *motion)
             others = others || !result.linearised[structure.number(term.substructure)];
       }
       if (constraints.turning_rows().empty() || structure.communicator().any(others))
@@ -87,7 +87,7 @@ namespace taut
         const ConstraintData &constraint = constraints[i];
         size[i] += std::fabs(constraint.gap) + constraint.gap_size;
         if (constraints.turns(i))
-          size[i] += norm(ends[constraints.turning_index(i)]);
+          size[i] += constraints.turning(i).distance(&ends[*constraints.segments(i).begin()]);
         if (!constraint.cone.may_open() || !(state.complementarity_gap[i] < 0.) ||
             !(-state.complementarity_gap[i] <= rounding_of_start * size[i]))
           continue;
@@ -110,6 +110,18 @@ namespace taut
                                "Gap or the start."));
     }
 
+    /// Refuses a turning constraint with a force whose places meet.
+    void check_segments(const Constraints &constraints, const std::size_t i,
+                        const std::vector<Coordinates> &ends, const InitialState &start)
+    {
+      for (const std::size_t k : constraints.segments(i))
+        if (constraints.turning(i).vanishes(ends[k]))
+          throw EntryError(constraints.origin(i),
+                           message_of_meeting(constraints[i].name, 0.,
+                                              constraints.ends(i, k, start.reference.displacement,
+                                                               start.state.U)));
+    }
+
     /// Sets gaps, and springs of links with their forces.
     void set_rows(Constraints &constraints, const Start start, InitialState &result)
     {
@@ -126,9 +138,10 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
-        state.distance[i] = constraints.turns(i)
-                                ? constraints.turning(i).gap(ends[constraints.turning_index(i)])
-                                : constraint.gap + reference_motion[i] + motion[i];
+        state.distance[i] =
+            constraints.turns(i)
+                ? constraints.turning(i).gap(&ends[*constraints.segments(i).begin()])
+                : constraint.gap + reference_motion[i] + motion[i];
         // A spring starts with the compression between its ends, and if compressed, at their speed.
         // Rigid ones have no compression.
         double u = constraint.spring.compression(state.multiplier[i]);
@@ -149,12 +162,8 @@ namespace taut
           state.distance[i] = std::max(0., state.distance[i]);
         state.complementarity_gap[i] = state.distance[i] + u;
         if (constraints.turns(i) &&
-            constraints.turning(i).vanishes(ends[constraints.turning_index(i)]) &&
             !constraint.cone.rests_open(state.multiplier[i], state.complementarity_gap[i]))
-          throw EntryError(
-              constraints.origin(i),
-              message_of_meeting(constraint.name, 0.,
-                                 constraints.ends(i, result.reference.displacement, state.U)));
+          check_segments(constraints, i, ends, result);
       }
       if (start == Start::equilibrium)
         result.reference.gap = state.distance;

@@ -19,7 +19,7 @@ namespace taut
     /// holds what nothing else does, and costs no iterations.
     constexpr double least_part = 1e-8;
 
-    /// Of each link: one along it, then two across it.
+    /// Of each segment of a link: one along it, then two across it.
     constexpr std::size_t n_springs = 3;
 
     /// A pivot below this part of the stiffness of its spring is not positive: a single prop counts
@@ -61,26 +61,31 @@ namespace taut
     source.clear();
     for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t k = all.turning_index(i);
       const TurningDirection &turning = all.turning(i);
-      const TurningDirection::Linear at = turning.linearised(motions[k]);
-      directions.push_back(at.direction);
+      const Coordinates *const moved = motions.data() + *all.segments(i).begin();
+      const TurningDirection::Linear at = turning.linearised(moved);
       list[i].terms = at.terms;
       list[i].gap = at.gap;
-      // Gaps, and motions across, round with the places of the ends.
-      const double size = list[i].gap_size = std::max(at.distance, turning.length),
-                   stand_in = load * std::clamp(turned, least_part, 1.) / size,
-                   geometric = is_check ? std::fabs(N[i]) / at.distance
-                                        : std::max(0., -turning.sign * N[i]) / size;
-      const auto add_spring = [&](const Coordinates &direction, const double stiffness)
+      list[i].gap_size = 0.;
+      for (std::size_t k = 0; k < turning.size(); ++k)
       {
-        list.push_back(geometric_spring(all[i].name, all[i], direction, stiffness, motions[k]));
-        list.back().gap_size = size;
-      };
-      add_spring(at.direction, stand_in);
-      for (const Coordinates &direction : across(at.direction))
-        add_spring(direction, geometric + stand_in);
-      source.insert(source.end(), n_springs, i);
+        directions.push_back(at.directions[k]);
+        // Gaps, and motions across, round with the places of the ends.
+        const double distance = at.distances[k], size = std::max(distance, turning.length_of(k)),
+                     stand_in = load * std::clamp(turned, least_part, 1.) / size,
+                     geometric = is_check ? std::fabs(N[i]) / distance
+                                          : std::max(0., -turning.sign * N[i]) / size;
+        list[i].gap_size += size;
+        const auto add_spring = [&](const Coordinates &direction, const double stiffness)
+        {
+          list.push_back(geometric_spring(all[i].name, all[i], k, direction, stiffness, moved[k]));
+          list.back().gap_size = size;
+        };
+        add_spring(at.directions[k], stand_in);
+        for (const Coordinates &direction : across(at.directions[k]))
+          add_spring(direction, geometric + stand_in);
+        source.insert(source.end(), n_springs, i);
+      }
     }
     linear = std::make_unique<Constraints>(structure, std::move(list));
   }
@@ -100,16 +105,21 @@ namespace taut
     turned = 0.;
     for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t k = all.turning_index(i);
       const TurningDirection &turning = all.turning(i);
-      const Coordinates difference = add_scaled(turning.start, 1., motions[k]);
-      const double gap = turning.gap(difference),
-                   change = norm(turning.at(difference) - directions[k]);
+      std::vector<Coordinates> differences;
+      double change = 0., size = 0.;
+      for (const std::size_t j : all.segments(i))
+      {
+        const std::size_t k = differences.size();
+        differences.push_back(add_scaled(turning.start[k], 1., motions[j]));
+        change = std::max(norm(turning.at(k, differences[k]) - directions[j]), change);
+        size += std::max(norm(differences[k]), turning.length_of(k));
+      }
+      const double gap = turning.gap(differences.data());
       turned = std::max(turned, change);
       if (all[i].cone.rests_open(state.multiplier[i], gap))
         continue;
-      const double miss =
-          std::fabs(gap - state.distance[i]) / std::max(norm(difference), turning.length);
+      const double miss = std::fabs(gap - state.distance[i]) / size;
       result = std::max({result, change, miss});
       if (std::isnan(change) || std::isnan(miss))
         return std::numeric_limits<double>::infinity();
@@ -135,7 +145,7 @@ namespace taut
       result[i] += all[i].gap;
     const std::vector<Coordinates> ends = all.differences(undeformed, U);
     for (const std::size_t i : all.turning_rows())
-      result[i] = all.turning(i).gap(ends[all.turning_index(i)]);
+      result[i] = all.turning(i).gap(ends.data() + *all.segments(i).begin());
     return result;
   }
 
@@ -146,12 +156,14 @@ namespace taut
     const std::vector<Coordinates> motions = all.differences(state.displacement);
     for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t k = all.turning_index(i);
       const TurningDirection &turning = all.turning(i);
-      const double stiffness = N[i] / norm(add_scaled(turning.start, 1., motions[k]));
-      if (turning.sign * N[i] > 0.)
+      const std::size_t first = *all.segments(i).begin();
+      for (std::size_t k = 0; k < turning.size() && turning.sign * N[i] > 0.; ++k)
+      {
+        const double stiffness = N[i] / norm(add_scaled(turning.start[k], 1., motions[first + k]));
         for (std::size_t spring = 1; spring < n_springs; ++spring)
-          springs.push_back({all.size() + n_springs * k + spring, std::fabs(stiffness)});
+          springs.push_back({all.size() + n_springs * (first + k) + spring, std::fabs(stiffness)});
+      }
     }
     turned = 0.;
     if (!springs.empty())

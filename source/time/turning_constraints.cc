@@ -21,11 +21,6 @@ namespace taut
     /// Distance, as a part of the length, below which ends that rotate further meet. It only
     /// chooses between two messages.
     constexpr double nearest_pass = 1e-3;
-
-    Coordinates scaled(const double s, const Coordinates &a)
-    {
-      return {s * a.x, s * a.y, s * a.z};
-    }
   } // namespace
 
   TurningConstraints::TurningConstraints(const Constraints &constraints, const Reference &reference,
@@ -56,7 +51,8 @@ namespace taut
   {
     next.clear();
     for (const std::size_t i : constraints.turning_rows())
-      next.push_back(constraints.turning(i).at(start[next.size()]));
+      for (std::size_t k = 0; k < constraints.turning(i).size(); ++k)
+        next.push_back(constraints.turning(i).at(k, start[next.size()]));
   }
 
   void TurningConstraints::begin()
@@ -82,24 +78,28 @@ namespace taut
     for (const std::size_t i : constraints.turning_rows())
     {
       const std::size_t k = constraints.turning_index(i);
-      const TurningDirection &turning = constraints.turning(i);
-      end[k] = add_scaled(start[k], 1., motion[k]);
-      const Coordinates sum = add_scaled(start[k], 1., end[k]);
-      const double size = norm(end[k]), sizes = norm(start[k]) + size;
-      // Avoids cancellation.
-      increments[k] = reels[k] + (sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.);
-      const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
-                   gap = before.distance[i] + increments[k] + history[i];
-      const bool is_open = constraints[i].cone.rests_open(N[i], gap);
+      const double sign = constraints.turning(i).sign;
+      double size = 0., linear = offsets[k];
+      increments[k] = reels[k];
+      for (const std::size_t j : constraints.segments(i))
+      {
+        end[j] = add_scaled(start[j], 1., motion[j]);
+        const Coordinates sum = add_scaled(start[j], 1., end[j]);
+        const double sizes = norm(start[j]) + norm(end[j]);
+        // Avoids cancellation.
+        increments[k] += sizes > 0. ? sign * dot(sum, motion[j]) / sizes : 0.;
+        linear += sign * dot(used[j], motion[j]);
+        size += norm(end[j]);
+      }
+      const bool is_open =
+          constraints[i].cone.rests_open(N[i], before.distance[i] + increments[k] + history[i]);
       if (!is_open)
-        check_turn(i, before);
-      if (turning.vanishes(end[k]) || turning.vanishes(start[k]))
+        for (const std::size_t j : constraints.segments(i))
+          check_turn(i, j, before);
+      const double turned = set_directions(i, is_mean);
+      if (is_open || !(size > 0.))
         continue;
-      next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end[k]);
-      next_offsets[k] = is_mean ? reels[k] : increments[k] - turning.sign * dot(next[k], motion[k]);
-      if (is_open)
-        continue;
-      const double change = std::max(weight_of_direction * norm(next[k] - used[k]),
+      const double change = std::max(weight_of_direction * turned,
                                      weight_of_gap * std::fabs(increments[k] - linear) / size);
       if (!(change <= result) && !std::isnan(result))
         result = change;
@@ -107,22 +107,47 @@ namespace taut
     return result;
   }
 
-  /// Checks that the ends of a constraint with a force neither meet nor pass each other.
-  void TurningConstraints::check_turn(const std::size_t i, const State &before) const
+  /// Directions and offset of a constraint for the next guess. Returns the largest change of a
+  /// direction. A segment whose ends meet keeps its own.
+  double TurningConstraints::set_directions(const std::size_t i, const bool is_mean)
   {
-    const std::size_t k = constraints.turning_index(i);
     const TurningDirection &turning = constraints.turning(i);
-    const Coordinates &a = start[k], &b = end[k], way = b - a;
+    const std::size_t k = constraints.turning_index(i);
+    double turned = 0., along = 0.;
+    for (const std::size_t j : constraints.segments(i))
+    {
+      const double size = norm(end[j]), sizes = norm(start[j]) + size;
+      if (!turning.vanishes(end[j]) && !turning.vanishes(start[j]))
+        next[j] = is_mean ? add_scaled({}, 1. / sizes, add_scaled(start[j], 1., end[j]))
+                          : add_scaled({}, 1. / size, end[j]);
+      turned = std::max(turned, norm(next[j] - used[j]));
+      along += dot(next[j], motion[j]);
+    }
+    next_offsets[k] = is_mean ? reels[k] : increments[k] - turning.sign * along;
+    return turned;
+  }
+
+  /// Checks that the ends of a segment with a force neither meet nor pass each other.
+  void TurningConstraints::check_turn(const std::size_t i, const std::size_t segment,
+                                      const State &before) const
+  {
+    const TurningDirection &turning = constraints.turning(i);
+    const Coordinates &a = start[segment], &b = end[segment], way = b - a;
     const bool vanishes = turning.vanishes(a) || turning.vanishes(b);
     if (!vanishes && !(dot(a, b) < largest_turn * norm(a) * norm(b)))
       return;
     const double part = std::clamp(-dot(a, way) / dot(way, way), 0., 1.);
     const std::string &name = constraints[i].name;
     if (vanishes || norm(add_scaled(a, part, way)) < nearest_pass * turning.length)
-      throw UserError(message_of_meeting(name, before.time,
-                                         constraints.ends(i, reference.displacement, before.U)));
+      throw UserError(message_of_meeting(
+          name, before.time, constraints.ends(i, segment, reference.displacement, before.U)));
     throw UserError(to_text("at t = ", before.time, " s: link '", name,
                             "' turns by more than 120 degrees in a step. Take a smaller step"));
+  }
+
+  double TurningConstraints::distance(const std::size_t i) const
+  {
+    return constraints.turning(i).distance(start.data() + *constraints.segments(i).begin());
   }
 
   std::string message_of_meeting(const std::string &name, const double t,

@@ -21,8 +21,9 @@ namespace taut
    * which times Delta_1 - Delta_0 is |Delta_1| - |Delta_0|: gaps do not drift, and the work of the
    * force is that of its gap (O. Gonzalez, J. Nonlinear Sci. 6 (1996)). With forces at the ends of
    * steps it is that of Delta_1, and D is linear about the last guess. Newton's method makes
-   * the guesses. Indices count all constraints. All functions that take vectors of
-   * bodies are called by all ranks together.
+   * the guesses. Where a constraint runs through rings, each segment has its Delta, and the gap the
+   * sum of |Delta|. Indices count all constraints. All functions that take vectors of bodies are
+   * called by all ranks together.
    */
   class TurningConstraints
   {
@@ -66,7 +67,7 @@ namespace taut
     double increment(const std::size_t i) const { return increments[constraints.turning_index(i)]; }
 
     /// |Delta_0| [m].
-    double distance(const std::size_t i) const { return norm(start[constraints.turning_index(i)]); }
+    double distance(std::size_t i) const;
 
     /// Work of a force N on the bodies in the step, in which B^T dU is @p motion, beyond N times
     /// the motion of the ends along the link: 0 with mean forces [J].
@@ -74,17 +75,18 @@ namespace taut
 
   private:
     void face_start();
-    void check_turn(std::size_t i, const State &before) const;
+    double set_directions(std::size_t i, bool is_mean);
+    void check_turn(std::size_t i, std::size_t segment, const State &before) const;
 
     const Constraints &constraints;
     const Reference &reference;
     const StepMethod &method;
-    double time = 0.;               ///< of Delta_0 [s]
-    std::vector<Coordinates> start; ///< Delta_0
-    std::vector<Coordinates> used;  ///< directions of B_i
-    std::vector<Coordinates> next;  ///< directions of the guess
-    std::vector<double> offsets, next_offsets, increments, reels;
-    std::vector<Coordinates> end;    ///< Delta_1 of the last guess
+    double time = 0.;                                             ///< of Delta_0 [s]
+    std::vector<Coordinates> start;                               ///< Delta_0
+    std::vector<Coordinates> used;                                ///< directions of B_i
+    std::vector<Coordinates> next;                                ///< directions of the guess
+    std::vector<double> offsets, next_offsets, increments, reels; ///< one a row
+    std::vector<Coordinates> end;                                 ///< Delta_1 of the last guess
     std::vector<Coordinates> motion; ///< Delta_1 - Delta_0 of the last guess
   };
 

@@ -20,6 +20,7 @@ namespace
       {"bar_on_wall", 0.03},
       {"beam_angular_stop", 0.07},
       {"beam_over_supports", 0.07},
+      {"block_and_tackle", 0.07},
       {"block_impact", 0.07},
       {"bouncing_bar", 0.03},
       {"bracket_and_cables", 0.07},

@@ -95,12 +95,12 @@ namespace taut
     }
   };
 
-  /// Geometric stiffness of a turning link that pulls, which resists lateral motions of its ends
-  /// with N / |Delta|. It is a spring of @p stiffness [N/m] along @p direction, without force where
-  /// the ends have moved by @p motion [m].
+  /// Geometric stiffness of a turning link that pulls, which resists lateral motions of the ends of
+  /// each @p segment with N / |Delta|. It is a spring of @p stiffness [N/m] along @p direction,
+  /// without force where Delta has moved by @p motion [m].
   ConstraintData geometric_spring(const std::string &name, const ConstraintData &link,
-                                  const Coordinates &direction, double stiffness,
-                                  const Coordinates &motion);
+                                  std::size_t segment, const Coordinates &direction,
+                                  double stiffness, const Coordinates &motion);
 
   /// Which cuts a rank has, where not all ranks have all of them.
   struct CutNumbers
@@ -205,8 +205,12 @@ namespace taut
     bool turns(const std::size_t i) const { return i >= first_turning && i < first_sliding; }
     bool slides(const std::size_t i) const { return i >= first_sliding; }
 
-    /// Index of a row in turning_rows().
+    /// Index of a row in turning_rows(), and its segments among those of all these rows.
     std::size_t turning_index(const std::size_t i) const { return i - first_turning; }
+    boost::integer_range<std::size_t> segments(const std::size_t i) const
+    {
+      return {first_segments[turning_index(i)], first_segments[turning_index(i) + 1]};
+    }
 
     /// Geometry of a turning, or of a sliding constraint.
     const TurningDirection &turning(std::size_t i) const;
@@ -230,19 +234,20 @@ namespace taut
     void copy_courses(std::vector<std::vector<double>> &to) const;
     void set_courses(const std::vector<std::vector<double>> &courses);
 
-    /// Delta of each of the turning_rows() at U = @p reference + @p U; without @p reference, its
-    /// part linear in U. Called by all ranks together [m].
+    /// Delta of each segment of the turning_rows() at U = @p reference + @p U; without
+    /// @p reference, its part linear in U. Called by all ranks together [m].
     std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
     std::vector<Coordinates> differences(const BodyVectors &U) const;
     void copy_differences(const BodyVectors &reference, const BodyVectors &U,
                           std::vector<Coordinates> &to) const;
     void copy_differences(const BodyVectors &U, std::vector<Coordinates> &to) const;
 
-    /// Ends of a turning constraint at U = @p reference + @p U [m]. Called by all ranks together.
-    std::array<Coordinates, 2> ends(std::size_t i, const BodyVectors &reference,
-                                    const BodyVectors &U) const;
+    /// Ends of one of the segments(@p i) at U = @p reference + @p U [m]. Called by all ranks
+    /// together.
+    std::array<Coordinates, 2> ends(std::size_t i, std::size_t segment,
+                                    const BodyVectors &reference, const BodyVectors &U) const;
 
-    /// Sets B_i = sign times motion along a direction for each turning constraint.
+    /// Sets B_i of the turning constraints by a direction for each segment.
     void turn(const std::vector<Coordinates> &directions);
 
     /// Calls turn() with the directions at U = @p reference + @p U. Called by all ranks together.
@@ -251,9 +256,9 @@ namespace taut
     /**
      * Replaces turning constraints by fixed ones with their directions and gaps at
      * U = @p reference. A link that pulls with force N there, one entry a constraint, resists
-     * lateral motions of its ends. It gets two springs |N| / |Delta|, without force at the
-     * reference, in rows before the sliding constraints. Constraints that push have no such
-     * springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
+     * lateral motions of the ends of its segments. Each gets two springs |N| / |Delta|, without
+     * force at the reference, in rows before the sliding constraints. Constraints that push have no
+     * such springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
      */
     void keep_directions(const BodyVectors &reference, const std::vector<double> &N);
 
@@ -314,6 +319,8 @@ namespace taut
 
     void check(const Rows &rows) const;
     void share_cuts(CutNumbers numbers);
+    std::size_t n_segments() const { return first_segments.back(); }
+    void add_motions_of_places(const BodyVectors &U, double *sum) const;
     void replace_cuts(std::vector<ConstraintData> cuts);
     void sort();
     void arrange();
@@ -327,6 +334,7 @@ namespace taut
     std::vector<std::size_t> row_index;
     std::size_t n_cuts = 0; ///< first rows, not on all ranks
     std::size_t first_turning = 0, first_sliding = 0;
+    std::vector<std::size_t> first_segments; ///< of each turning row, and their number
     std::shared_ptr<const SharedRows> shared_rows;
 
     std::vector<Entry> entries;     ///< of all constraints, in the order of rows

@@ -76,7 +76,8 @@ namespace taut
     virtual void set_course(const std::vector<double> &) {}
   };
 
-  /// An end of a turning constraint: a place of a body, or of the ground if it has no motion.
+  /// An end of a turning constraint, or a ring that it runs through: a place of a body, or of the
+  /// ground if it has no motion.
   struct LinkEnd
   {
     Coordinates position;                         ///< at U = 0, the same on all ranks [m]
@@ -84,24 +85,28 @@ namespace taut
   };
 
   /**
-   * The geometry of a constraint that turns with its ends and acts along the line between them:
+   * The geometry of a constraint that turns with its ends and acts along the line between them, or
+   * along the lines through rings without friction, as a rope over pulleys. Delta of a segment goes
+   * from one place to the next; with the sum over the segments,
    *
-   *     D = sign (|Delta| - length),    Delta = start + motion . U.
+   *     D = sign (sum |Delta| - length),    Delta = start + motion of the places.
    *
-   * B_i is sign times d . motion along a direction d; d = Delta / |Delta| for forces at one state.
+   * B_i is sign times the sum of d . motion of Delta along directions d of the segments;
+   * d = Delta / |Delta| for forces at one state. All segments have the force N.
    */
   class TurningDirection : public Geometry
   {
   public:
-    /// From end to end; the length is their distance at U = 0. @p push: see @ref sign.
-    TurningDirection(const LinkEnd &first, const LinkEnd &second, double push);
+    /// Through two places or more, in their order; the length is that at U = 0. @p push: see
+    /// @ref sign.
+    TurningDirection(std::vector<LinkEnd> places, double push);
 
-    LinkEnd first;
+    std::vector<LinkEnd> places;    ///< its ends, and rings between them
+    std::vector<Coordinates> start; ///< Delta of each segment at U = 0, the same on all ranks [m]
+    double length = 1.;             ///< sum |Delta| at D = 0, positive; at t = 0 if it changes [m]
 
-    /// Motion along x, y, z of the second end, then minus that of the first, on this rank [m].
-    std::array<std::vector<Term>, 3> motion;
-    Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
-    double length = 1.; ///< |Delta| at D = 0, positive; at t = 0 where it changes [m]
+    /// Number of segments.
+    std::size_t size() const { return start.size(); }
 
     /// The length over time [s], positive, as a winch reels it in and out; empty: it is constant
     /// [m].
@@ -112,8 +117,18 @@ namespace taut
     std::string fault() const override;
     std::vector<const std::vector<Term> *> forms() const override;
 
-    /// D without a spring at t = 0, at the difference of the ends [m].
-    double gap(const Coordinates &difference) const { return sign * (norm(difference) - length); }
+    /// Sum of |Delta| of all segments, and D without a spring at t = 0 [m].
+    double distance(const Coordinates *differences) const;
+    double gap(const Coordinates *differences) const
+    {
+      return sign * (distance(differences) - length);
+    }
+
+    /// The part of the length that a segment has at U = 0 [m].
+    double length_of(const std::size_t segment) const
+    {
+      return length * (norm(start[segment]) / distance(start.data()));
+    }
 
     /// What a change of the length from one time to another adds to D, 0 if it is constant [s, m].
     double reeled(const double from, const double to) const
@@ -124,30 +139,31 @@ namespace taut
     /// Its rate at the end of a step of this length, from differences within the step [s, m/s].
     double reel_rate(double t, double step) const;
 
-    /// True if the ends are closer than a millionth of the length: they have no direction.
+    /// True if the ends of a segment are closer than a millionth of the length: it has no
+    /// direction.
     bool vanishes(const Coordinates &difference) const
     {
       constexpr double least_part = 1e-6; // a direction would have lost six digits
       return !(norm(difference) > least_part * length);
     }
 
-    /// Delta / |Delta|; where it vanishes, the direction at U = 0.
-    Coordinates at(const Coordinates &difference) const;
+    /// Delta / |Delta| of a segment; where it vanishes, the direction at U = 0.
+    Coordinates at(std::size_t segment, const Coordinates &difference) const;
 
     /// The constraint, linearised at a state: D = terms . U + gap.
     struct Linear
     {
-      Coordinates direction; ///< of the link at the state
-      double distance;       ///< |Delta| at the state [m]
+      std::vector<Coordinates> directions; ///< of the segments at the state
+      std::vector<double> distances;       ///< |Delta| of the segments at the state [m]
       std::vector<Term> terms;
       double gap; ///< [m]
     };
 
-    /// Linearises at the state Delta = start + @p motion [m].
-    Linear linearised(const Coordinates &motion) const;
+    /// Linearises at the state Delta = start + motion of each segment [m].
+    Linear linearised(const Coordinates *motions) const;
 
-    /// Motion along a direction, with one term for each body of each end.
-    std::vector<Term> along(const Coordinates &direction) const;
+    /// Motion of Delta of one segment along a direction, with one term for each body of each place.
+    std::vector<Term> along(std::size_t segment, const Coordinates &direction) const;
   };
 
   /// Two unit vectors normal to the unit vector @p d and to each other.

@@ -44,6 +44,10 @@ namespace taut
      */
     static Constraint rope(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                            double length);
+    /// A rope from the first of two places or more through rings without friction to the last one,
+    /// as over pulleys: `distance` is the sum of those from place to place.
+    static Constraint rope(const std::string &name, const std::vector<LinkEnd> &places,
+                           double length);
     static Constraint prop(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                            double length);
     static Constraint rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
@@ -69,7 +73,7 @@ namespace taut
     Constraint(const std::string &name, bool unilateral, const Displacement &a,
                const Displacement &b);
     static Constraint turning(const std::string &name, bool unilateral, double push,
-                              const LinkEnd &a, const LinkEnd &b, double length);
+                              std::vector<LinkEnd> places, double length);
     ConstraintData data;
   };
 

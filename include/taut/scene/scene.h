@@ -297,6 +297,10 @@ namespace taut
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     LinkKind kind = LinkKind::joint;
     Attachment from, to;
+
+    /// Of a rope, a dropper that turns: the rings without friction that it runs through from `from`
+    /// to `to`, in their order.
+    std::vector<Attachment> through = {};
     bool rotational = false;
     Coordinates direction = {0., 1.};
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
@@ -346,6 +350,25 @@ namespace taut
 
     bool unilateral() const { return kind != LinkKind::joint; }
     bool moving() const { return kind == LinkKind::sliding_contact; }
+
+    /// Calls @p visit with each place of a link: its ends and the rings between them, in order.
+    template <typename AnyLink, typename Visit>
+    static void visit_places(AnyLink &link, const Visit &visit)
+    {
+      visit(link.from);
+      for (auto &ring : link.through)
+        visit(ring);
+      visit(link.to);
+    }
+
+    /// Whether @p is_wanted of one of its places.
+    template <typename IsWanted>
+    bool any_place(const IsWanted &is_wanted) const
+    {
+      bool is_found = false;
+      visit_places(*this, [&](const Attachment &at) { is_found = is_found || is_wanted(at); });
+      return is_found;
+    }
 
     /// Elongation of the spring under a force [m, rad].
     double elongation(const double N) const { return law ? law->elongation(N) : N / stiffness; }
