@@ -75,13 +75,13 @@ namespace taut
     std::vector<double> n;
     const auto is_checked = [&](const Link &link)
     {
-      return !link.moving() && !link.rotational && link.through.empty() &&
-             (is_on_cable(scene, link.from) || is_on_cable(scene, link.to));
+      return !link.moving() && !link.rotational &&
+             link.any_place([&](const Attachment &at) { return is_on_cable(scene, at); });
     };
     for (const Link &link : scene.links)
       if (is_checked(link))
-        for (const Attachment *end : {&link.from, &link.to})
-          n.push_back(n_motions(bodies, *end, false, directions(link)));
+        Link::visit_places(link, [&](const Attachment &at)
+                           { n.push_back(n_motions(bodies, at, false, directions(link))); });
     for (const Load &load : scene.loads)
       if (is_on_cable(scene, load.target))
         n.push_back(n_motions(bodies, load.target, false, {load.direction}));
@@ -93,15 +93,22 @@ namespace taut
     {
       if (!is_checked(link))
         continue;
-      const double from = *of_end++, to = *of_end++;
-      const bool is_from = is_on_cable(scene, link.from) && from == 0.,
-                 is_to = is_on_cable(scene, link.to) && to == 0.;
-      if (!is_from && !is_to)
+      const Attachment *held = nullptr;
+      double n_of_all = 0.;
+      Link::visit_places(link,
+                         [&](const Attachment &at)
+                         {
+                           if (!held && is_on_cable(scene, at) && *of_end == 0.)
+                             held = &at;
+                           n_of_all += *of_end++;
+                         });
+      if (!held)
         continue;
-      const Attachment &end = is_from ? link.from : link.to;
-      if (from == 0. && to == 0.)
-        throw EntryError(entry_path(link.origin, is_from ? "From" : "To"),
-                         "link '" + link.name + "': it acts at " + at_held_end(scene, end) +
+      if (n_of_all == 0.)
+        throw EntryError(entry_path(link.origin, held == &link.from ? "From"
+                                                 : held == &link.to ? "To"
+                                                                    : "Through"),
+                         "link '" + link.name + "': it acts at " + at_held_end(scene, *held) +
                              ", and its other end does not move either: it has no effect. Let "
                              "Held ends of the cable leave that end free, or remove the link");
       grounded.push_back(link.name);

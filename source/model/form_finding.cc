@@ -95,33 +95,24 @@ namespace taut
   Scene find_lengths(Scene scene, const SolverParameters &parameters, const Communicator &processes,
                      SharedParts *const shared)
   {
-    std::vector<Link> links;
     std::vector<Attachment> ends;
     for (const Link &link : scene.links)
       if (is_found(link))
-      {
-        links.push_back(link);
         ends.insert(ends.end(), {link.from, link.to});
-      }
-    if (links.empty())
+    if (ends.empty())
       return scene;
     // Only the connected part: other parts do not change a bit of the form.
-    ScenePart part = connected_part(while_built(scene), ends);
-    for (Link &link : links)
-    {
-      link.from = part.inside(link.from);
-      link.to = part.inside(link.to);
-    }
-    const std::vector<FoundDropper> droppers = found_droppers(part.scene, links);
+    Scene part = connected_part(while_built(scene), ends).scene;
+    std::vector<FoundDropper> droppers = found_droppers(part);
     const auto find = [&]
     {
-      Scene base = part.scene;
-      base.links.erase(std::remove_if(base.links.begin(), base.links.end(), is_found),
-                       base.links.end());
-      return find_form(base, droppers, parameters, processes);
+      part.links.erase(std::remove_if(part.links.begin(), part.links.end(), is_found),
+                       part.links.end());
+      part.links.shrink_to_fit();
+      return find_form(part, droppers, parameters, processes);
     };
-    const DropperForm form = shared && processes.size() == 1 && part.scene.bodies.empty()
-                                 ? shared->forms.find(key(part.scene, parameters), find)
+    const DropperForm form = shared && processes.size() == 1 && part.bodies.empty()
+                                 ? shared->forms.find(key(part, parameters), find)
                                  : find();
 
     std::size_t i = 0;

@@ -16,24 +16,24 @@ namespace taut
 {
   namespace
   {
-    /// Vectors from end to end of undeformed links [m]. Only a body knows the positions of its
+    /// Sets vectors from end to end of undeformed links. Only a body knows the positions of its
     /// places.
-    std::vector<Coordinates> between_ends(const Scene &scene, const std::vector<Link> &links)
+    void set_between(const Scene &scene, std::vector<FoundDropper> &droppers)
     {
-      const bool is_on_body = std::any_of(links.begin(), links.end(),
-                                          [](const Link &link) {
-                                            return link.from.kind == Attachment::Kind::body ||
-                                                   link.to.kind == Attachment::Kind::body;
-                                          });
+      const bool is_on_body =
+          std::any_of(droppers.begin(), droppers.end(),
+                      [](const FoundDropper &dropper)
+                      {
+                        return dropper.link.from.kind == Attachment::Kind::body ||
+                               dropper.link.to.kind == Attachment::Kind::body;
+                      });
       std::optional<SceneBodies> bodies;
       if (is_on_body)
         bodies.emplace(scene);
       const auto at = [&](const Attachment &end)
       { return bodies ? bodies->position(scene, end) : place(scene, end); };
-      std::vector<Coordinates> result;
-      for (const Link &link : links)
-        result.push_back(at(link.to) - at(link.from));
-      return result;
+      for (FoundDropper &dropper : droppers)
+        dropper.between = at(dropper.link.to) - at(dropper.link.from);
     }
 
     /// The direction across a dropper and the wire from which it hangs.
@@ -64,18 +64,21 @@ namespace taut
     }
   } // namespace
 
-  std::vector<FoundDropper> found_droppers(const Scene &scene, const std::vector<Link> &links)
+  std::vector<FoundDropper> found_droppers(const Scene &scene)
   {
-    const std::vector<Coordinates> between = between_ends(scene, links);
     std::vector<FoundDropper> result;
-    for (std::size_t i = 0; i < links.size(); ++i)
+    result.reserve(std::count_if(scene.links.begin(), scene.links.end(), is_found));
+    for (const Link &link : scene.links)
+      if (is_found(link))
+        result.push_back({link, {}});
+    set_between(scene, result);
+    for (FoundDropper &dropper : result)
     {
-      FoundDropper dropper{links[i], between[i]};
-      if (links[i].form.pull > 0.)
-        dropper.run = run_of(scene, links[i], between[i]);
+      Link &link = dropper.link;
+      if (link.form.pull > 0.)
+        dropper.run = run_of(scene, link, dropper.between);
       if (!dropper.is_given())
-        dropper.link.length = dropper.length_over(dot(between[i], links[i].direction));
-      result.push_back(std::move(dropper));
+        link.length = dropper.length_over(dot(dropper.between, link.direction));
     }
     return result;
   }
@@ -150,7 +153,7 @@ namespace taut
           scene.links.push_back(dropper.link);
         else
           lower.push_back(dropper.link.to);
-      const ScenePart part = connected_part(scene, lower);
+      const ScenePart part = connected_part(std::move(scene), lower);
       return std::any_of(droppers.begin(), droppers.end(),
                          [&](const FoundDropper &dropper)
                          {
@@ -166,6 +169,7 @@ namespace taut
                                  const SolverParameters &parameters, const Communicator &processes)
     {
       Scene scene = base;
+      scene.links.reserve(base.links.size() + droppers.size());
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         const FoundDropper &dropper = droppers[i];
@@ -281,11 +285,10 @@ namespace taut
         along.push_back(link.direction);
       }
       DropperForm form{tension, {}, std::vector<double>(droppers.size(), 0.)};
-      {
-        Scene high = scene;
-        add_sideways(droppers, before, high);
-        form.length = WiresAtRest(high, parameters, processes).distances(droppers, along);
-      }
+      const auto n_links = static_cast<std::ptrdiff_t>(scene.links.size());
+      add_sideways(droppers, before, scene);
+      form.length = WiresAtRest(scene, parameters, processes).distances(droppers, along);
+      scene.links.erase(scene.links.begin() + n_links, scene.links.end());
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         if (!(form.length[i] > 0.))
@@ -344,7 +347,7 @@ namespace taut
     }
   } // namespace
 
-  DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
+  DropperForm find_form(const Scene &base, std::vector<FoundDropper> &droppers,
                         const SolverParameters &parameters, const Communicator &processes)
   {
     // Rounding of the heights of a long line keeps changes of lengths above `settled`, but not

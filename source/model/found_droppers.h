@@ -38,15 +38,15 @@ namespace taut
     return link.form.find_length || link.form.find_direction;
   }
 
-  /// Links of a scene that are found. Throws EntryError for a rope without a run.
-  std::vector<FoundDropper> found_droppers(const Scene &scene, const std::vector<Link> &links);
+  /// Links of a scene that are found, in their order. Throws EntryError for a rope without a run.
+  std::vector<FoundDropper> found_droppers(const Scene &scene);
 
   /// Half of the mass of a dropper on each of its ends.
   void add_mass(const Link &link, Scene &scene);
 
-  /// Tensions and lengths of the droppers between the parts of a scene without them. Called by all
-  /// ranks together.
-  DropperForm find_form(const Scene &base, std::vector<FoundDropper> droppers,
+  /// Tensions and lengths of the droppers between the parts of a scene without them; links get the
+  /// lengths. Called by all ranks together.
+  DropperForm find_form(const Scene &base, std::vector<FoundDropper> &droppers,
                         const SolverParameters &parameters, const Communicator &processes);
 
   /// Length, stiffness, direction and gap of @p link of @p scene, which is number @p i of the form.

@@ -58,14 +58,14 @@ namespace taut
 
     /// Copies the items that are in the part, and notes their numbers there.
     template <typename Item>
-    void take(const std::vector<Item> &all, const std::vector<char>::const_iterator is_inside,
+    void take(std::vector<Item> &all, const std::vector<char>::const_iterator is_inside,
               std::vector<Item> &items, std::vector<std::size_t> &numbers)
     {
       for (std::size_t i = 0; i < all.size(); ++i)
       {
         numbers.push_back(is_inside[i] ? items.size() : ground);
         if (is_inside[i])
-          items.push_back(all[i]);
+          items.push_back(std::move(all[i]));
       }
     }
   } // namespace
@@ -77,7 +77,7 @@ namespace taut
     return end;
   }
 
-  ScenePart connected_part(const Scene &scene, const std::vector<Attachment> &points)
+  ScenePart connected_part(Scene scene, const std::vector<Attachment> &points)
   {
     Connections connections(scene);
     const std::vector<std::size_t> set = connections.sets();
@@ -96,16 +96,17 @@ namespace taut
     take(scene.wires, own, inner.wires, part.wire);
     take(scene.masses, own += scene.wires.size(), inner.masses, part.mass);
     take(scene.bodies, own += scene.masses.size(), inner.bodies, part.body);
+    inner.links.reserve(scene.links.size());
 
     const auto has = [&](const Attachment &end)
     { return end.kind != Kind::ground && is_inside[connections.number(end)]; };
-    for (Support support : scene.supports)
+    for (Support &support : scene.supports)
       if ((support.wire = part.wire[support.wire]) != ground)
         inner.supports.push_back(std::move(support));
-    for (PointMass mass : scene.point_masses)
+    for (PointMass &mass : scene.point_masses)
       if ((mass.wire = part.wire[mass.wire]) != ground)
         inner.point_masses.push_back(std::move(mass));
-    for (Spring spring : scene.springs)
+    for (Spring &spring : scene.springs)
     {
       for (std::size_t *const end : {&spring.from, &spring.to})
         if (*end != ground)
@@ -113,20 +114,20 @@ namespace taut
       if (spring.from != ground || spring.to != ground)
         inner.springs.push_back(std::move(spring));
     }
-    for (Link link : scene.links)
+    for (Link &link : scene.links)
       if (!link.moving() && link.any_place(has))
       {
         Link::visit_places(link, [&](Attachment &at) { at = part.inside(at); });
         inner.links.push_back(std::move(link));
       }
-    for (SurfaceContact contact : scene.contacts)
+    for (SurfaceContact &contact : scene.contacts)
       if ((contact.slave.body = part.body[contact.slave.body]) != ground)
       {
         if (contact.obstacle.shape == ObstacleSetting::Shape::none)
           contact.master.body = part.body[contact.master.body];
         inner.contacts.push_back(std::move(contact));
       }
-    for (Load load : scene.loads)
+    for (Load &load : scene.loads)
       if (has(load.target))
       {
         load.target = part.inside(load.target);

@@ -23,9 +23,9 @@ namespace taut
   /**
    * The part of a scene that determines the equilibrium of @p points: the wires, masses and bodies
    * that springs and fixed links connect with one of these points, with their supports, links and
-   * loads. Probes and sliding contacts are left out.
+   * loads. Probes and sliding contacts are left out. Items keep their order.
    */
-  ScenePart connected_part(const Scene &scene, const std::vector<Attachment> &points);
+  ScenePart connected_part(Scene scene, const std::vector<Attachment> &points);
 
   /// The scene of one wire, number 0, with all data that a WireComponent reads. Links are left out
   /// unless they take mass from the wire.

@@ -181,80 +181,141 @@ namespace taut
     }
   } // namespace
 
+  /// What is written, and what it means.
+  struct Expression::Text
+  {
+    std::string formula, entry;
+    std::string written = formula;                  ///< what messages quote
+    std::shared_ptr<CompiledFormula> compiled = {}; ///< null for a number
+    std::vector<std::shared_ptr<const TabulatedFunction>> tables = {};
+    int variable_alone = -1;             ///< of a formula that is a table; -1 for others
+    std::vector<std::string> names = {}; ///< of its variables, the last is t
+    bool depends_on_time = false;
+
+    /// "s = 3 m, t = 0.5 s"
+    std::string place(const CompiledFormula::Values &values) const
+    {
+      std::ostringstream out;
+      const std::size_t n = names.size() - 1;
+      for (std::size_t i = 0; i < n; ++i)
+        out << names[i] << (i + 1 < n ? ", " : " = ");
+      for (std::size_t i = 0; i < n; ++i)
+        out << values[i] << (i + 1 < n ? ", " : " m, t = ");
+      out << values[n] << " s";
+      return out.str();
+    }
+
+    [[noreturn]] void fail(const CompiledFormula::Values &values) const
+    {
+      throw EntryError(entry, "'" + written + "' is not finite at " + place(values) +
+                                  ". Restrict the formula to where it is defined, e.g. with "
+                                  "if(condition, a, b).");
+    }
+  };
+
   Expression::Expression() = default;
 
-  Expression::Expression(const double value) : constant(value)
+  Expression::Expression(const double value)
+      : text(std::make_shared<const Text>(Text{to_text(std::setprecision(17), value), ""})),
+        constant(value)
   {
-    text = to_text(std::setprecision(17), value);
   }
 
   Expression::Expression(const std::string &formula, const std::string &entry,
                          const Variables variables)
-      : text(formula), entry(entry)
   {
+    const auto own = std::make_shared<Text>(Text{formula, entry});
+    parse(*own, variables);
+    text = own;
+  }
+
+  Expression::Expression(const std::string &formula, const Expression &whole)
+  {
+    const auto own = std::make_shared<Text>(Text{formula, whole.text->entry, whole.text->written});
+    parse(*own, Variables::both);
+    text = own;
+  }
+
+  void Expression::parse(Text &own, const Variables variables)
+  {
+    const std::string &formula = own.formula;
     char *end = nullptr;
-    constant = std::strtod(text.c_str(), &end);
-    const bool is_number = end != text.c_str() &&
-                           text.find_first_not_of(" \t", end - text.c_str()) == std::string::npos;
+    constant = std::strtod(formula.c_str(), &end);
+    is_number = end != formula.c_str() &&
+                formula.find_first_not_of(" \t", end - formula.c_str()) == std::string::npos;
     if (is_number && std::isfinite(constant))
       return;
 
     const auto bad = [&](const std::string &reason)
     {
-      return EntryError(entry,
-                        "cannot evaluate '" + text + "': " + reason + ". " + advice(variables));
+      return EntryError(own.entry, "cannot evaluate '" + own.written + "': " + reason + ". " +
+                                       advice(variables));
     };
     if (is_number)
       throw bad("the number is out of range");
-    const TableCalls calls(text, abscissae(variables), entry);
-    tables = calls.tables;
+    const TableCalls calls(formula, abscissae(variables), own.entry);
+    own.tables = calls.tables;
     const std::string wrong = objection(calls.formula, variables);
     if (!wrong.empty())
       throw bad(wrong);
+    std::vector<std::string> &names = own.names;
     names = variables == Variables::space        ? std::vector<std::string>{"x", "y", "z", "t"}
             : variables == Variables::elongation ? std::vector<std::string>{"d", "t"}
                                                  : std::vector<std::string>{"s", "t"};
     try
     {
-      compiled = std::make_shared<CompiledFormula>(calls.formula, names, tables);
+      own.compiled = std::make_shared<CompiledFormula>(calls.formula, names, own.tables);
     }
     catch (const std::exception &e)
     {
       throw bad(e.what());
     }
-    time_dependent = mentions(calls.formula, "t");
+    own.depends_on_time = mentions(calls.formula, "t");
     if (!calls.alone.empty())
-      variable_alone =
+      own.variable_alone =
           static_cast<int>(std::find(names.begin(), names.end(), calls.alone) - names.begin());
-    if (!tables.empty())
+    if (!own.tables.empty())
     {
       varies = true;
       return;
     }
-    constant = (*compiled)({});
+    constant = (*own.compiled)({});
     varies = !std::isfinite(constant) || // an error when it is evaluated
              std::any_of(names.begin(), names.end(),
-                         [&](const std::string &name) { return mentions(text, name); });
+                         [&](const std::string &name) { return mentions(formula, name); });
+  }
+
+  const std::string &Expression::formula() const
+  {
+    static const std::string zero = "0";
+    return text ? text->formula : zero;
+  }
+
+  bool Expression::depends_on_time() const
+  {
+    return text && text->depends_on_time;
   }
 
   double Expression::evaluate(const Coordinates &x, const double t) const
   {
     // A formula in s or d takes the first coordinate.
-    const CompiledFormula::Values values = names.size() == 2
+    const CompiledFormula::Values values = text->names.size() == 2
                                                ? CompiledFormula::Values{x.x, t}
                                                : CompiledFormula::Values{x.x, x.y, x.z, t};
     double value = 0.;
     try
     {
-      value = variable_alone >= 0 ? (*tables.front())(values[variable_alone]) : (*compiled)(values);
+      value = text->variable_alone >= 0 ? (*text->tables.front())(values[text->variable_alone])
+                                        : (*text->compiled)(values);
     }
     catch (const TabulatedFunction::Outside &e)
     {
-      throw EntryError(entry, "'" + text + "' has no value at " + place(values) + ": " + e.what() +
-                                  ", or the formula may choose, e.g. 'condition ? a : b'");
+      throw EntryError(text->entry, "'" + text->written + "' has no value at " +
+                                        text->place(values) + ": " + e.what() +
+                                        ", or the formula may choose, e.g. 'condition ? a : b'");
     }
     if (!std::isfinite(value))
-      fail(values);
+      text->fail(values);
     return value;
   }
 
@@ -262,35 +323,35 @@ namespace taut
                             std::vector<double> &result) const
   {
     result.resize(s.size());
-    if (!varies || !compiled || variable_alone >= 0 || !tables.empty())
+    if (!varies || text->variable_alone >= 0 || !text->tables.empty())
     {
       for (std::size_t i = 0; i < s.size(); ++i)
         result[i] = (*this)(s[i], t);
       return;
     }
-    compiled->evaluate(s, t, result);
+    text->compiled->evaluate(s, t, result);
     for (std::size_t i = 0; i < s.size(); ++i)
       if (!std::isfinite(result[i]))
-        fail({s[i], t});
+        text->fail({s[i], t});
   }
 
   Expression::Separated Expression::separated() const
   {
     Separated result;
-    FormulaTerms terms = terms_of(text);
+    if (!text)
+      return result;
+    FormulaTerms terms = terms_of(formula());
+    const auto part = [&](const std::string &formula) { return Expression(formula, *this); };
     for (const FormulaTerms::Product &product : terms.products)
-      result.products.push_back(
-          {Expression(product.of_place, entry), Expression(product.of_time, entry)});
+      result.products.push_back({part(product.of_place), part(product.of_time)});
     for (const FormulaTerms::Travelling &term : terms.travelling)
       try
       {
-        Separated::Travelling own{
-            {}, Expression(term.of_time, entry), Expression(term.whole, entry)};
+        Separated::Travelling own{{}, part(term.of_time), part(term.whole)};
         bool is_known = true;
         for (const FormulaTerms::Shape &shape : term.factors)
         {
-          own.factors.push_back({Expression(shape.formula, entry), Expression(shape.a, entry),
-                                 Expression(shape.b, entry)});
+          own.factors.push_back({part(shape.formula), part(shape.a), part(shape.b)});
           is_known &= std::isfinite(1. / own.factors.back().a(0., 0.)) &&
                       std::isfinite(own.factors.back().b(0., 0.));
         }
@@ -305,36 +366,16 @@ namespace taut
       }
     if (terms.rest.empty())
       return result;
-    result.rest =
-        terms.products.empty() && terms.travelling.empty() ? *this : Expression(terms.rest, entry);
+    result.rest = terms.products.empty() && terms.travelling.empty() ? *this : part(terms.rest);
     return result;
   }
 
   std::string Expression::content() const
   {
-    std::string result = text;
-    for (const auto &table : tables)
-      result += " [" + table->content() + "]";
+    std::string result = formula();
+    if (text)
+      for (const auto &table : text->tables)
+        result += " [" + table->content() + "]";
     return result;
-  }
-
-  /// "s = 3 m, t = 0.5 s"
-  std::string Expression::place(const std::array<double, 4> &values) const
-  {
-    std::ostringstream out;
-    const std::size_t n = names.size() - 1;
-    for (std::size_t i = 0; i < n; ++i)
-      out << names[i] << (i + 1 < n ? ", " : " = ");
-    for (std::size_t i = 0; i < n; ++i)
-      out << values[i] << (i + 1 < n ? ", " : " m, t = ");
-    out << values[n] << " s";
-    return out.str();
-  }
-
-  void Expression::fail(const std::array<double, 4> &values) const
-  {
-    throw EntryError(entry, "'" + text + "' is not finite at " + place(values) +
-                                ". Restrict the formula to where it is defined, e.g. with "
-                                "if(condition, a, b).");
   }
 } // namespace taut

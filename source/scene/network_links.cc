@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 namespace taut
@@ -205,6 +206,19 @@ namespace taut
                            "without bar; set it to false");
     }
 
+    /// A number, or a range first:step:last.
+    bool are_numbers(const std::string &text)
+    {
+      const std::vector<std::string> parts = split(text, ':');
+      return std::all_of(parts.begin(), parts.end(),
+                         [](const std::string &part)
+                         {
+                           char *end = nullptr;
+                           std::strtod(part.c_str(), &end);
+                           return !part.empty() && *end == '\0';
+                         });
+    }
+
     /// The rings of a rope: names, each with its place if there is one, whose numbers have commas
     /// between them, too.
     std::vector<Attachment> parse_rings(const std::string &text, const Scene &scene,
@@ -213,9 +227,12 @@ namespace taut
       std::vector<std::string> names;
       for (const std::string &part : text.empty() ? names : split(text, ','))
       {
-        const bool is_number =
-            !part.empty() && part.find_first_not_of("0123456789+-.eE:") == std::string::npos;
-        if (is_number && !names.empty() && names.back().find('@') != std::string::npos)
+        const bool may_go_on =
+            !names.empty() && names.back().find('@') != std::string::npos && are_numbers(part);
+        if (may_go_on && find_name(scene.masses, part) != ground)
+          throw EntryError(entry, "'" + part + "' is a mass and may be a number of the place '" +
+                                      names.back() + "', too; give the mass another name");
+        if (may_go_on)
           names.back() += ", " + part;
         else
           names.push_back(part);
@@ -412,6 +429,7 @@ namespace taut
       const std::string title = links.title(i);
       Link link = link_without_ends(item, title);
       const auto from = parse_attachments(item.from, scene, title + "/From");
+      link.through = parse_rings(item.through, scene, title + "/Through");
       link.strip = item.strip;
       if (!link.strip.empty() && !link.moving())
         throw EntryError(title + "/Strip", "it is of a sliding contact; leave it empty");
@@ -434,7 +452,6 @@ namespace taut
                                     std::to_string(to.size()) +
                                     "; give equal numbers, or one of one");
       const std::size_t n = std::max(from.size(), to.size());
-      link.through = parse_rings(item.through, scene, title + "/Through");
       if (!link.through.empty() && n > 1)
         throw EntryError(title + "/Through",
                          "a rope through rings has one end at From and one at To");

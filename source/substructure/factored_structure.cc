@@ -36,25 +36,44 @@ namespace taut
     /// holds a motion goes with the square, which is 1e-16 here.
     constexpr double independent = 1e-8;
 
-    /// True if no combination of the vectors is zero, to working precision, on all of the DoFs.
+    /// True if no combination of the vectors is zero, to working precision, on all of the DoFs. The
+    /// singular values are those of R in QR, of which the vectors are few; an SVD of all rows has a
+    /// matrix of the length of the DoFs squared.
     bool are_held(const std::vector<std::vector<double>> &vectors,
                   const std::vector<unsigned int> &dofs)
     {
-      if (vectors.size() > dofs.size())
+      const std::size_t n = vectors.size();
+      if (n > dofs.size())
         return false;
-      dealii::LAPACKFullMatrix<double> restricted(dofs.size(), vectors.size());
-      for (std::size_t j = 0; j < vectors.size(); ++j)
-      {
-        double size = 0.;
-        for (const unsigned int dof : dofs)
-          size += vectors[j][dof] * vectors[j][dof];
-        for (std::size_t i = 0; i < dofs.size(); ++i)
-          restricted(i, j) = size == 0. ? 0. : vectors[j][dofs[i]] / std::sqrt(size);
-      }
-      if (vectors.empty())
+      if (n == 0)
         return true;
-      restricted.compute_svd();
-      return restricted.singular_value(vectors.size() - 1) > independent;
+      std::vector<std::vector<double>> Q(n, std::vector<double>(dofs.size()));
+      dealii::LAPACKFullMatrix<double> R(n, n);
+      const auto normalise = [](std::vector<double> &v)
+      {
+        const double size = std::sqrt(dot_in_lanes(v, v));
+        for (double &x : v)
+          x = size > 0. ? x / size : 0.;
+        return size;
+      };
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          Q[j][i] = vectors[j][dofs[i]];
+        normalise(Q[j]);
+        // Two passes of Gram-Schmidt, as one leaves the rounding of the removed part.
+        for (int pass = 0; pass < 2; ++pass)
+          for (std::size_t i = 0; i < j; ++i)
+          {
+            const double part = dot_in_lanes(Q[i], Q[j]);
+            R(i, j) += part;
+            for (std::size_t d = 0; d < dofs.size(); ++d)
+              Q[j][d] -= part * Q[i][d];
+          }
+        R(j, j) = normalise(Q[j]);
+      }
+      R.compute_svd();
+      return R.singular_value(n - 1) > independent;
     }
 
     /// Rows of the inverse of the matrix of values of the vectors on the DoFs; one row per vector.

@@ -19,6 +19,10 @@ namespace taut
     /// holds what nothing else does, and costs no iterations.
     constexpr double least_part = 1e-8;
 
+    /// Part of the length of a link below which the ends of a segment meet: no link with a force
+    /// rests there, see TurningDirection::vanishes().
+    constexpr double least_distance = 1e-6;
+
     /// Of each segment of a link: one along it, then two across it.
     constexpr std::size_t n_springs = 3;
 
@@ -70,11 +74,13 @@ namespace taut
       for (std::size_t k = 0; k < turning.size(); ++k)
       {
         directions.push_back(at.directions[k]);
-        // Gaps, and motions across, round with the places of the ends.
-        const double distance = at.distances[k], size = std::max(distance, turning.length_of(k)),
+        // Gaps, and motions across, round with the places of the ends. A ring may come to rest
+        // where a segment is much shorter than before, and N / |Delta| across it decides where.
+        const double distance = std::max(at.distances[k], least_distance * turning.length),
+                     size = std::max(distance, turning.length_of(k)),
                      stand_in = load * std::clamp(turned, least_part, 1.) / size,
-                     geometric = is_check ? std::fabs(N[i]) / distance
-                                          : std::max(0., -turning.sign * N[i]) / size;
+                     geometric = (is_check ? std::fabs(N[i]) : std::max(0., -turning.sign * N[i])) /
+                                 distance;
         list[i].gap_size += size;
         const auto add_spring = [&](const Coordinates &direction, const double stiffness)
         {

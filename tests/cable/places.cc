@@ -173,7 +173,7 @@ TEST(CablePlaces, places_in_space_are_shown)
       places_in_space(session.simulation().scene(), session.simulation().structure());
   const double lowest = places.loads[0].y;
   EXPECT_NEAR(lowest, -3.40, .03); // a catenary without stretch: -3.395
-  for (const Coordinates &at : {places.loads[0], places.probes[0], places.to.back()})
+  for (const Coordinates &at : {places.loads[0], places.probes[0], places.links.back().back()})
   {
     EXPECT_NEAR(at.x, 15., 1e-6);
     EXPECT_EQ(at.y, lowest);

@@ -4,7 +4,6 @@
 
 #include <taut/base/coordinates.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,8 +19,8 @@ namespace taut
    * FunctionParser; pi is known. In it 'table(FILE.csv, column)' is a column of a file over its
    * first one: s or d or t, whichever the formula depends on; 'table(FILE.csv, column, t)' says
    * which where there are several. A further word 'cubic' takes monotone cubics in the place of
-   * straight lines. The formula is compiled and its files are read once, and copies share both. An
-   * evaluation allocates nothing; any thread may evaluate.
+   * straight lines. The formula is compiled and its files are read once, and copies share all of
+   * it. An evaluation allocates nothing; any thread may evaluate.
    */
   class Expression
   {
@@ -69,40 +68,37 @@ namespace taut
     struct Separated;
     Separated separated() const;
 
-    const std::string &formula() const { return text; }
+    const std::string &formula() const;
 
     /// The formula with digests of its tables: differs where values may differ.
     std::string content() const;
 
     /// The value of a constant; 0 for other formulas.
-    double constant_part() const { return compiled ? 0. : constant; }
+    double constant_part() const { return is_number ? constant : 0.; }
 
     /// True for a formula that is a number equal to zero.
-    bool is_zero() const { return !compiled && constant == 0.; }
+    bool is_zero() const { return is_number && constant == 0.; }
 
     /// True for a formula that has one value: it may be written with functions, but has no
     /// variable.
     bool is_constant() const { return !varies; }
 
     /// True if the formula mentions t.
-    bool depends_on_time() const { return time_dependent; }
+    bool depends_on_time() const;
 
   private:
-    using Tables = std::vector<std::shared_ptr<const TabulatedFunction>>;
+    struct Text;
 
+    /// A part of the formula @p whole, which messages quote.
+    Expression(const std::string &formula, const Expression &whole);
+
+    void parse(Text &own, Variables variables);
     double evaluate(const Coordinates &x, double t) const;
-    std::string place(const std::array<double, 4> &values) const;
-    [[noreturn]] void fail(const std::array<double, 4> &values) const;
 
-    std::shared_ptr<CompiledFormula> compiled; ///< null for a number
-    Tables tables;
-    int variable_alone = -1;        ///< of a formula that is a table; -1 for others
-    std::vector<std::string> names; ///< of its variables, the last is t
-    std::string text = "0";
-    std::string entry;
-    double constant = 0.; ///< value of a number, and of a formula without variables
+    std::shared_ptr<const Text> text; ///< null: 0
+    double constant = 0.;             ///< value of a number, and of a formula without variables
+    bool is_number = true;
     bool varies = false;
-    bool time_dependent = false;
   };
 
   struct Expression::Separated
