@@ -3,11 +3,15 @@
 // factors, at 1e6 DoFs and 1e4 constraints: nothing in it is dense in the constraints (F alone
 // would be 0.8 GB, and its factor as much). Expected: the peak of the process below 10 times the 17
 // vectors of a run and the factors, what the solve adds below 4 times the factors and its 4
-// vectors.
+// vectors; an equilibrium of strings with thousands of droppers at their nodes adds no more than
+// 14 kB a dropper, where anything of their number squared would add as much again.
 #include "common.h"
 #include "interface_problem.h"
+#include "scene_tests.h"
 
 #include <taut/simulation/parameters.h>
+
+#include <malloc.h>
 
 namespace
 {
@@ -53,4 +57,24 @@ TEST(InterfaceMemory, of_the_size_of_vectors_and_factors)
             << (peak - before) / (4. * vector + factors) << " 1\n";
   EXPECT_LT(peak, 10. * (17. * vector + factors));
   EXPECT_LT(peak - before, 4. * (4. * vector + factors));
+}
+
+TEST(InterfaceMemory, of_many_droppers_on_strings_at_rest)
+{
+  constexpr int n_spans = 800, n_droppers = 9 * n_spans;
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << 5; // VmHWM begins anew
+  const double before = status("VmRSS");
+  std::size_t n_links = 0;
+  verification::run_scene(
+      verification::scene_file("en50318_2002_string"),
+      {"Catenary/Number of spans=" + std::to_string(n_spans),
+       "Catenary/Contact wire/Element size=60", "Catenary/Messenger wire/Element size=60",
+       "Solver/Interface operator=matrix-free", "Partition/Number of substructures=4"},
+      [&](const taut::StepView &view) { n_links = view.scene.links.size(); });
+  EXPECT_EQ(n_links, static_cast<std::size_t>(n_droppers));
+  const double added = (status("VmHWM") - before) / n_droppers;
+  std::cout << "figure | added by an equilibrium [bytes a dropper] | " << added << " 1\n";
+  EXPECT_LT(added, 14e3);
+  EXPECT_GT(added, 1e3);
 }
