@@ -147,6 +147,13 @@ extern "C"
     return PMPI_Allgather(own, n, type, all, n_all, type_of_all, ranks);
   }
 
+  int MPI_Gatherv(const void *own, int n, MPI_Datatype type, void *all, const int *n_all,
+                  const int *first, MPI_Datatype type_of_all, int root, MPI_Comm ranks)
+  {
+    meet();
+    return PMPI_Gatherv(own, n, type, all, n_all, first, type_of_all, root, ranks);
+  }
+
   int MPI_Allgatherv(const void *own, int n, MPI_Datatype type, void *all, const int *n_all,
                      const int *first, MPI_Datatype type_of_all, MPI_Comm ranks)
   {

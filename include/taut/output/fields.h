@@ -38,17 +38,28 @@ namespace taut
     void finish() override;
 
   private:
-    /// A place with the linear forms of its motion along x, y and z.
-    struct Sample
+    /// Points of a file: each rank has the linear forms of the motion along x, y and z of those on
+    /// its bodies, the root has the places of all.
+    struct Points
     {
-      Coordinates place;
-      std::array<std::vector<Term>, 3> motion;
-    };
-    Sample sample(const Scene &scene, const SceneBodies &structure, const Attachment &at) const;
+      struct Moved
+      {
+        std::size_t number;
+        std::array<std::vector<Term>, 3> motion;
+      };
+      std::size_t size = 0;
+      std::vector<Coordinates> places; ///< at U = 0 [m]
+      std::vector<Moved> moved;
 
-    /// Displacements of samples along x, y, z from the undeformed line, summed over all ranks [m].
-    std::vector<float> displacements(const std::vector<Sample> &samples,
-                                     const StepView &step) const;
+      void set_motion(const SceneBodies &structure, std::size_t number, const Attachment &at);
+
+      /// Called by all ranks together.
+      void add(const Scene &scene, const SceneBodies &structure, const Attachment &at);
+    };
+
+    /// On the root, displacements of points along x, y, z from the undeformed line [m]; called by
+    /// all ranks together.
+    std::vector<float> displacements(const Points &points, const StepView &step) const;
     void add_wires(const Scene &scene, const SceneBodies &structure, unsigned int subdivisions);
     void add_links(const Scene &scene, const SceneBodies &structure);
     void move_ends(const StepView &step);
@@ -60,14 +71,15 @@ namespace taut
 
     std::string folder;
     double interval, next = 0.;
-    std::vector<Sample> wires; ///< along each wire, `subdivisions` an element
+    Points wires; ///< along each wire, `subdivisions` an element
 
     /// Ends of links on bodies: of fixed links in the order of the scene, then of sliding ones.
-    std::vector<Sample> ends;
+    Points ends;
     std::vector<std::size_t> link_of_end; ///< index in the scene
     std::size_t n_fixed_ends = 0;
 
-    std::unique_ptr<VtuFile> wire_file, link_file; ///< null if there is nothing to show
+    bool is_root = true;
+    std::unique_ptr<VtuFile> wire_file, link_file; ///< of the root; null: nothing to show
     std::size_t wire_displacement = 0;             ///< arrays of the files
     std::size_t link_displacement = 0, force = 0, gap = 0, open = 0;
     PvdFile wire_collection, link_collection;
