@@ -67,13 +67,13 @@ namespace taut
         continue;
       }
       // Columns of both ends on one body add, as full vectors.
-      WindowedVector second, sum;
       solvers[k].column(form, second);
+      sum.first = 0;
       sum.value.assign(solvers.structure()[k].n_dofs(), 0.);
       for (const WindowedVector *const x : {&std::as_const(known->x), &std::as_const(second)})
         for (std::size_t e = 0; e < x->value.size(); ++e)
           sum.value[x->first + e] += x->value[e];
-      known->x = std::move(sum);
+      std::swap(known->x, sum);
     }
     column.resize(n);
   }

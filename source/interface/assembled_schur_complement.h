@@ -73,6 +73,7 @@ namespace taut
     std::vector<std::vector<Response>> columns; ///< of each constraint
     std::vector<std::vector<Reach>> reach;      ///< for each body, by first DoF
     std::vector<unsigned int> widest;           ///< largest last - first of each body
+    WindowedVector second, sum;                 ///< in compute()
     bool by_columns = false; ///< contact_free_predictor() from the columns is cheaper than a solve
     mutable BodyVectors work;
   };

@@ -498,16 +498,12 @@ namespace taut
 
   std::string Constraints::names(const std::vector<Label> &labels)
   {
-    std::vector<std::string> different; // springs across a link have its name
-    for (const Label &label : labels)
-      if (std::find(different.begin(), different.end(), label.name) == different.end())
-        different.push_back(label.name);
     std::string text;
-    const std::size_t shown = std::min<std::size_t>(different.size(), 8);
+    const std::size_t shown = std::min<std::size_t>(labels.size(), 8);
     for (std::size_t k = 0; k < shown; ++k)
-      text += (k == 0 ? "'" : ", '") + different[k] + "'";
-    if (shown < different.size())
-      text += " and " + std::to_string(different.size() - shown) + " more";
+      text += (k == 0 ? "'" : ", '") + labels[k].name + "'";
+    if (shown < labels.size())
+      text += " and " + std::to_string(labels.size() - shown) + " more";
     return text;
   }
 

@@ -35,7 +35,7 @@ namespace taut
   /// Whether form finding changes a link.
   inline bool is_found(const Link &link)
   {
-    return link.form.find_length || link.form.find_direction;
+    return (link.form.find_length || link.form.find_direction) && !link.moving();
   }
 
   /// Links of a scene that are found, in their order. Throws EntryError for a rope without a run.

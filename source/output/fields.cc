@@ -88,7 +88,7 @@ namespace taut
       return;
     wire_file = std::make_unique<VtuFile>(wires.size, lines);
     wire_file->set(VtuFile::positions, values_of(wires.places));
-    wires.places = {};
+    wires.places = std::vector<Coordinates>(); // without its memory
     wire_displacement = wire_file->add(VtuFile::Location::points, "displacement", 3, "m");
     wire_file->add(VtuFile::Location::cells, "wire", numbers);
     wire_file->add(VtuFile::Location::cells, "part", parts);

@@ -12,8 +12,8 @@ namespace taut
 {
   bool is_dropper_between_wires(const Link &link)
   {
-    return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
-           link.to.kind == Attachment::Kind::wire;
+    return link.kind == LinkKind::dropper && link.through.empty() &&
+           link.from.kind == Attachment::Kind::wire && link.to.kind == Attachment::Kind::wire;
   }
 
   namespace
@@ -182,10 +182,7 @@ namespace taut
       const double c = found.wave_speed = wave_speed(wire);
       found.doppler = std::max(0., (c - found.speed) / (c + found.speed));
       const auto holds = [&](const Link &dropper)
-      {
-        return dropper.kind == LinkKind::dropper && dropper.to.kind == Attachment::Kind::wire &&
-               dropper.from.kind == Attachment::Kind::wire && dropper.to.index == link.to.index;
-      };
+      { return is_dropper_between_wires(dropper) && dropper.to.index == link.to.index; };
       const auto dropper = std::find_if(scene.links.begin(), scene.links.end(), holds);
       if (dropper != scene.links.end())
       {

@@ -185,12 +185,15 @@ namespace taut
   struct Expression::Text
   {
     std::string formula, entry;
-    std::string written = formula;                  ///< what messages quote
+    std::shared_ptr<const std::string> whole = {};  ///< what it is a part of; null: nothing
     std::shared_ptr<CompiledFormula> compiled = {}; ///< null for a number
     std::vector<std::shared_ptr<const TabulatedFunction>> tables = {};
     int variable_alone = -1;             ///< of a formula that is a table; -1 for others
     std::vector<std::string> names = {}; ///< of its variables, the last is t
     bool depends_on_time = false;
+
+    /// What messages quote.
+    const std::string &written() const { return whole ? *whole : formula; }
 
     /// "s = 3 m, t = 0.5 s"
     std::string place(const CompiledFormula::Values &values) const
@@ -207,7 +210,7 @@ namespace taut
 
     [[noreturn]] void fail(const CompiledFormula::Values &values) const
     {
-      throw EntryError(entry, "'" + written + "' is not finite at " + place(values) +
+      throw EntryError(entry, "'" + written() + "' is not finite at " + place(values) +
                                   ". Restrict the formula to where it is defined, e.g. with "
                                   "if(condition, a, b).");
     }
@@ -231,7 +234,9 @@ namespace taut
 
   Expression::Expression(const std::string &formula, const Expression &whole)
   {
-    const auto own = std::make_shared<Text>(Text{formula, whole.text->entry, whole.text->written});
+    const auto own = std::make_shared<Text>(Text{formula, whole.text->entry, whole.text->whole});
+    if (!own->whole)
+      own->whole = std::shared_ptr<const std::string>(whole.text, &whole.text->formula);
     parse(*own, Variables::both);
     text = own;
   }
@@ -248,7 +253,7 @@ namespace taut
 
     const auto bad = [&](const std::string &reason)
     {
-      return EntryError(own.entry, "cannot evaluate '" + own.written + "': " + reason + ". " +
+      return EntryError(own.entry, "cannot evaluate '" + own.written() + "': " + reason + ". " +
                                        advice(variables));
     };
     if (is_number)
@@ -310,7 +315,7 @@ namespace taut
     }
     catch (const TabulatedFunction::Outside &e)
     {
-      throw EntryError(text->entry, "'" + text->written + "' has no value at " +
+      throw EntryError(text->entry, "'" + text->written() + "' has no value at " +
                                         text->place(values) + ": " + e.what() +
                                         ", or the formula may choose, e.g. 'condition ? a : b'");
     }

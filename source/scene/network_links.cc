@@ -206,9 +206,10 @@ namespace taut
                            "without bar; set it to false");
     }
 
-    /// A number, or a range first:step:last.
-    bool are_numbers(const std::string &text)
+    /// Numbers with ':' or ';' between them.
+    bool are_numbers(std::string text)
     {
+      std::replace(text.begin(), text.end(), ';', ':');
       const std::vector<std::string> parts = split(text, ':');
       return std::all_of(parts.begin(), parts.end(),
                          [](const std::string &part)

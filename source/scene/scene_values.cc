@@ -89,10 +89,9 @@ namespace taut
       }
       void write(const Link &l)
       {
-        for (const Attachment &ring : l.through)
-          write(ring);
-        all(l.name, l.origin, l.kind, l.from, l.to, l.through.size(), l.rotational, l.direction,
-            l.stiffness, l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
+        list(l.through);
+        all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
+            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
             l.unstressed_length, l.length_in_time, l.speed, l.travel, l.strip, l.straight,
             l.profile, l.cant, l.form.find_length, l.form.prescribed_displacement,
             l.form.axial_stiffness, l.form.mass_per_length, l.form.pull, l.length,

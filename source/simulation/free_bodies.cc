@@ -49,6 +49,29 @@ namespace taut
             result[j] += term.form.dot(null_space.vectors[j]);
       return result;
     }
+
+    /// Whether a place of a turning link is no place of a body.
+    bool is_held(const TurningDirection &link)
+    {
+      return std::any_of(link.places.begin(), link.places.end(),
+                         [](const LinkEnd &place)
+                         {
+                           return std::all_of(place.motion.begin(), place.motion.end(),
+                                              [](const std::vector<Term> &terms)
+                                              { return terms.empty(); });
+                         });
+    }
+
+    /// What a turning link holds: its segments also across themselves, like a pendulum.
+    std::vector<std::vector<Term>> motions_of(const TurningDirection &link)
+    {
+      std::vector<std::vector<Term>> result;
+      for (std::size_t k = 0; k < link.size(); ++k)
+        for (const Coordinates &axis :
+             {Coordinates{1., 0., 0.}, Coordinates{0., 1., 0.}, Coordinates{0., 0., 1.}})
+          result.push_back(link.along(k, axis));
+      return result;
+    }
   } // namespace
 
   std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
@@ -64,19 +87,21 @@ namespace taut
     {
       if (!constraints[i].cone.is_closed(multiplier[i]))
         continue;
+      const std::vector<std::vector<Term>> forms =
+          constraints.turns(i) ? motions_of(constraints.turning(i))
+                               : std::vector<std::vector<Term>>{constraints[i].terms};
       std::set<std::size_t> ends;
       for (const Term &term : constraints[i].terms)
         ends.insert(term.substructure);
-      if (ends.size() == 1)
+      if (constraints.turns(i) ? is_held(constraints.turning(i)) : ends.size() == 1)
         ends.insert(n);
       for (const std::size_t k : ends)
       {
         bodies.join(*ends.begin(), k);
         if (k < n && !null_spaces[k].vectors.empty())
         {
-          // A turning link holds its ends also across itself, like a pendulum.
-          for (const std::vector<Term> *const form : constraints[i].forms())
-            extend(opposed[k], work(*form, k, null_spaces[k]));
+          for (const std::vector<Term> &form : forms)
+            extend(opposed[k], work(form, k, null_spaces[k]));
         }
       }
     }

@@ -4,6 +4,10 @@
 #include <taut/base/exceptions.h>
 #include <taut/time/step_parameters.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 namespace taut
 {
   std::string StepCheck::when() const
@@ -47,8 +51,14 @@ namespace taut
   {
     if (rows.empty())
       return;
-    const std::string names = Constraints::names(rows);
-    fail((rows.size() == 1
+    // Springs across a link that turns have its name.
+    std::vector<Constraints::Label> links;
+    std::set<std::string> known;
+    for (const Constraints::Label &row : rows)
+      if (known.insert(row.name).second)
+        links.push_back(row);
+    const std::string names = Constraints::names(links);
+    fail((links.size() == 1
               ? "no force satisfies link " + names +
                     ": its ends are held where it does not let them be. Remove it, give it"
               : "the links " + names +

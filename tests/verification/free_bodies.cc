@@ -51,3 +51,21 @@ Link joint: Type = joint; From = block; To = beam @ 2; Stiffness = rigid
 )"),
       "  nothing holds 'beam (transverse)', 'block': at rest only because no force moves them");
 }
+
+// A link between two places of one body holds it nowhere; a rope over pulleys holds what hangs on
+// it.
+TEST(FreeBodies, are_those_that_links_that_turn_leave_free)
+{
+  EXPECT_EQ(free_bodies("Support s: Wire = beam; Positions = 0, 4\n"
+                        "Link tie: Type = joint; Turns = true; From = beam @ 1; To = beam @ 3\n"),
+            "  nothing holds 'beam (axial)': at rest only because no force moves it");
+  const std::string held = foot + hinge + "Support end: Wire = beam; Positions = 4\n";
+  std::string weights;
+  for (const auto &[name, place] : {std::pair("a", "-1, -1"), {"b", "0, -0.57735"}, {"c", "1, -1"}})
+    weights +=
+        std::string("Mass ") + name + ": Position = " + place + "; Mass = 1; Motions = x, y\n";
+  const std::string ropes =
+      "Gravity = 0, -9.81\nLink rope: Type = dropper; Turns = true; From = a; "
+      "Through = ground @ -1, 0, b, ground @ 1, 0; To = c; Length = 4.3094\n";
+  EXPECT_EQ(free_bodies(held + weights + ropes), "");
+}

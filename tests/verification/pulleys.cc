@@ -83,8 +83,10 @@ TEST(Pulleys, atwood_machine_falls_by_the_difference_of_its_weights)
             },
             scheme);
     SCOPED_TRACE(scheme.empty() ? "default" : scheme[0]);
-    // Backward Euler falls by a h t / 2 more, and other schemes start by a rounding of the step.
-    EXPECT_LE(verification::figure("Atwood's machine, error of the place [m]", place), 6e-4);
+    // Backward Euler falls by a h t / 2 more.
+    const bool is_first_order = has(scheme.empty() ? "" : scheme[0], "Euler");
+    EXPECT_LE(verification::figure("Atwood's machine, error of the place [m]", place),
+              is_first_order ? .55 * a * 1e-3 * .5 : 1e-12);
     EXPECT_LE(verification::figure("Atwood's machine, error of the force", force), 1e-9);
     EXPECT_LE(verification::figure("Atwood's machine, drift of the length [m]", length), 1e-12);
   }
@@ -323,7 +325,7 @@ TEST(Pulleys, impossible_ropes_are_refused)
   EXPECT_TRUE(has(rope_with("Through = m0,, m0"), "Link l0/Through"));
   // One rope that is too short is named once.
   const std::string too_short = rope_with("Through = m0; Length = 0.5");
-  EXPECT_TRUE(has(too_short, "'l0'") && !has(too_short, "'l0', 'l0'")) << too_short;
+  EXPECT_TRUE(has(too_short, "no force satisfies link 'l0'")) << too_short;
 }
 
 // A part of a place may look like a name, and a name like a part of a place.

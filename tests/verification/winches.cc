@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the length of a rope, prop or rod may change with time. Masses are where the length says,
 // and the force is that of Newton's law with its second derivative; a pendulum whose rope is reeled
-// in swings as its equation of motion says; what is reeled out faster than it falls is slack.
+// in swings as its equation of motion says; what is reeled out faster than it falls is slack. A
+// rope hauls a cable by its end.
 // Sources: closed forms; the equation of motion of a pendulum of length L(t),
-// L a'' + 2 L' a' + g sin a = 0, by Runge-Kutta's method.
+// L a'' + 2 L' a' + g sin a = 0, by Runge-Kutta's method; the elastic catenary (Irvine, Cable
+// Structures, 1981).
+#include "cable/places_in_steps.h"
 #include "turning_scene.h"
 
 #include <array>
@@ -153,6 +156,63 @@ TEST(Winches, prop_that_grows_lifts)
   scene.run([&](const Motion &now)
             { verification::raise(place, now.place[0].y - 1. - lift * now.time * now.time); });
   EXPECT_LE(place, 1e-9);
+}
+
+// A cable from a support hangs by a rope, which is straight along the tangent at its end. The
+// elastic catenary from the support has H along x and V + w s along y.
+TEST(Winches, rope_hauls_a_cable_by_its_end)
+{
+  constexpr double L = 10.5, EA = 1e5, w = g, at = 12., rope = 1.6;
+  const auto end_of_rope = [&](const double H, const double V, Coordinates &end_of_cable)
+  {
+    const double up = V + w * L, T = std::hypot(H, up);
+    end_of_cable = {H * L / EA + H / w * (std::asinh(up / H) - std::asinh(V / H)),
+                    (V * L + .5 * w * L * L) / EA + (T - std::hypot(H, V)) / w};
+    return add_scaled(end_of_cable, rope / T, {H, up});
+  };
+  double H = 60., V = -.5 * w * L;
+  Coordinates expected;
+  for (int iteration = 0; iteration < 50; ++iteration)
+  {
+    constexpr double small = 1e-5;
+    Coordinates other;
+    const Coordinates e = end_of_rope(H, V, expected) - Coordinates{at, 0.},
+                      a = end_of_rope(H + small, V, other) - Coordinates{at, 0.},
+                      b = end_of_rope(H, V + small, other) - Coordinates{at, 0.};
+    const double xH = (a.x - e.x) / small, yH = (a.y - e.y) / small, xV = (b.x - e.x) / small,
+                 yV = (b.y - e.y) / small, D = xH * yV - xV * yH;
+    H -= (e.x * yV - xV * e.y) / D;
+    V -= (xH * e.y - yH * e.x) / D;
+  }
+  const double force = std::hypot(H, V + w * L);
+  const auto scene = [&](const std::string &length, const std::string &time)
+  {
+    return "Gravity = 0, " + number(-g) +
+           "; Start = equilibrium\n"
+           "Body cable: Type = cable; From = 0, 0; To = 10, 0; Unstressed length = 10.5; "
+           "Axial stiffness = 1e5; Mass per length = 1; Element = bar; Elements = 40; Held ends = "
+           "from; Mass damping = 4\n"
+           "Link rope: Type = dropper; Turns = true; From = cable @ 10.5, 0; To = ground @ 12, 0; "
+           "Length = " +
+           length + "\nTime: " + time + "\n";
+  };
+  // At rest, and hauled there from a longer rope.
+  for (const std::string &text :
+       {scene(number(rope), "End = 0"),
+        scene("1.8-0.02*min(t,10)", "End = 16; Step = 2e-3; Check steps = no")})
+  {
+    double x = 0., y = 0., N = 0.;
+    verification::run_scene(text, {},
+                            [&](const taut::StepView &view)
+                            {
+                              x = displaced(view, view.scene.links[0].from).x;
+                              y = displaced(view, view.scene.links[0].from).y;
+                              N = view.state.multiplier[view.constraints.index_of_link(0)];
+                            });
+    EXPECT_NEAR(x, expected.x, 2e-4);
+    EXPECT_NEAR(y, expected.y, 2e-4);
+    EXPECT_NEAR(N / force, 1., 1e-3);
+  }
 }
 
 // The scene of prm/: m (g + pi / 4) at most, m g later, and 3.25 m below the winch at the end.
