@@ -16,7 +16,7 @@ namespace taut
       double converged; ///< change below which iterations have converged
 
       /// Changes below `stagnated` also end the iterations after `most_stagnant` iterations that
-      /// did not halve the previous change: rounding sustains them.
+      /// did not halve the least change so far: rounding sustains them.
       double stagnated;
       int most_stagnant;
 
@@ -36,21 +36,19 @@ namespace taut
     /// Adds the change of the next iteration.
     Verdict add(const double change)
     {
-      n_stagnant = change >= .5 * last ? n_stagnant + 1 : 0;
-      last = change;
-      if (change <= limits.converged ||
-          (change <= limits.stagnated && n_stagnant >= limits.most_stagnant))
-        return Verdict::converged;
       n_in_vain = change <= .5 * least ? 0 : n_in_vain + 1;
       least = n_in_vain == 0 ? change : least;
+      if (change <= limits.converged ||
+          (change <= limits.stagnated && n_in_vain >= limits.most_stagnant))
+        return Verdict::converged;
       return !std::isfinite(change) || n_in_vain == limits.most_in_vain ? Verdict::failed
                                                                         : Verdict::goes_on;
     }
 
   private:
     const Limits limits;
-    double last = std::numeric_limits<double>::infinity(), least = last;
-    int n_stagnant = 0, n_in_vain = 0;
+    double least = std::numeric_limits<double>::infinity();
+    int n_in_vain = 0;
   };
 
   /// Equations for Newton's method: a step in time of bodies that are not linear, for example.

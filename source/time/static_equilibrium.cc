@@ -22,9 +22,10 @@ namespace taut
   namespace
   {
     /// Of the change of the displacements, relative to themselves: 1e-12 is some thousand
-    /// roundings. Changes up to 1e-7 that no longer halve count as rounding, and the certificate of
-    /// the state measures what they leave.
-    constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 1, 500};
+    /// roundings. Changes up to 1e-7 that five iterations do not halve count as rounding, and the
+    /// certificate of the state measures what they leave: rigid bodies, whose tangent leaves a part
+    /// out, may converge by a tenth in each.
+    constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 5, 500};
 
     /// Displacements count as this part of the longest link that turns at least: where a structure
     /// is at rest as it is made, they are nothing but rounding. That is 1e-16 of a length, and so

@@ -1,8 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """README.md, doc/tutorial.md and doc/guyed_mast.md quote what the program prints: every line of a block marked `text` there is a line of the run
-that the page describes, and the parameter file that the tutorial builds up is the one of prm/. Integers are the same,
+that the page describes, and the parameter file that the tutorial builds up is the one of prm/; accuracy.md says what another filter
+makes of the force. Integers are the same,
 decimals to two units of the last digit quoted or a thousandth, residuals at rounding level on both sides."""
+import cmath
+import csv
+import math
 import pathlib
 import re
 import shutil
@@ -44,6 +48,31 @@ def wrapped(lines):
 shutil.rmtree(arguments.results, ignore_errors=True)
 arguments.results.mkdir(parents=True)
 line_run = run(arguments.root / "prm" / "en50318_2002_250.prm")
+
+
+def brick_wall(forces, step, frequency):
+    """Without what is above a frequency, by the discrete Fourier transform."""
+    n, mean = len(forces), math.fsum(forces) / len(forces)
+    result = [mean] * n
+    for k in range(1, int(frequency * n * step) + 1):
+        turns = [cmath.exp(-2j * math.pi * k * i / n) for i in range(n)]
+        part = sum((force - mean) * turn for force, turn in zip(forces, turns)) / n
+        result = [value + 2 * (part * turn.conjugate()).real for value, turn in zip(result, turns)]
+    return result
+
+
+# What another filter makes of the force of the main scene.
+with open(arguments.results / "results" / "en50318_2002_250" / "sliding.csv", encoding="utf-8") as table:
+    rows = list(csv.DictReader(table))
+record = [(float(row["time [s]"]), float(row["pantograph force [N]"])) for row in rows
+          if 240 <= float(row["pantograph position [m]"]) <= 360]
+filtered = brick_wall([force for _, force in record], record[1][0] - record[0][0], 20.)
+centre = math.fsum(filtered) / len(filtered)
+figures = (math.sqrt(math.fsum((force - centre) ** 2 for force in filtered) / len(filtered)), max(filtered), min(filtered))
+said = "gives σ = {:.1f} N, max {:.1f} N and min {:.1f} N.".format(*figures)
+if said not in " ".join((arguments.root / "doc" / "accuracy.md").read_text(encoding="utf-8").split()):
+    errors.append(f"accuracy.md does not say what a brick-wall filter at 20 Hz gives: it {said}")
+
 # README has a scene of its own before the main one.
 of_block = line_run
 for mark, lines in blocks(arguments.root / "README.md"):

@@ -216,4 +216,22 @@ namespace
     EXPECT_PRED2(has, message("1/d", V::elongation), "not finite at d = 0 m");
     EXPECT_PRED2(has, message("y/x", V::space), "not finite at x, y, z = 0, 0, 0 m, t = 2 s");
   }
+
+  // A load is taken apart, and its user knows the formula as it is written.
+  TEST(Formulas, errors_of_parts_quote_the_whole)
+  {
+    const std::string text = "sin(s)*sqrt(1-t) + 3*exp(-(s-20*t)^2)/(s-20*t)";
+    const Expression::Separated parts = Expression(text, "Load/Magnitude").separated();
+    ASSERT_EQ(parts.products.size(), 1u);
+    ASSERT_EQ(parts.travelling.size(), 1u);
+    for (const std::string &error :
+         {verification::error_of([&] { parts.products[0].of_time(0., 2.); }),
+          verification::error_of(
+              [&]
+              {
+                for (const auto &[form, a, b] : parts.travelling[0].factors)
+                  form(0., 0.);
+              })})
+      EXPECT_TRUE(verification::has(error, "'" + text + "' is not finite at s = ")) << error;
+  }
 } // namespace
