@@ -5,6 +5,8 @@
 #include <taut/base/communicator.h>
 
 #include <cstddef>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace taut
@@ -21,13 +23,16 @@ namespace taut
     std::vector<std::size_t> sizes;
     processes.gather(own.size(), sizes);
     std::vector<int> n, first;
-    std::size_t sum = 0;
+    std::size_t sum = 0; // of which MPI takes the first places as int
     for (const std::size_t size : sizes)
     {
       n.push_back(static_cast<int>(size));
       first.push_back(static_cast<int>(sum));
       sum += size;
     }
+    if (sum > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throw std::runtime_error("there are more numbers than MPI gathers on one rank: write the "
+                               "motion with fewer points, or none (Output/Field interval = 0)");
     all.resize(processes.is_root() ? sum : 0);
     MPI_Gatherv(own.data(), n[processes.rank()], MPI_DOUBLE, all.data(), n.data(), first.data(),
                 MPI_DOUBLE, 0, processes.of_mpi());

@@ -64,10 +64,14 @@ def file_names(folder):
     return sorted({re.sub(r"\.piece\d+", "", path.name).replace(".pvtu", ".vtu") for path in folder.rglob("*")})
 
 
+def last_arrays(collection):
+    file = list(xml.parse(collection).iter("DataSet"))[-1].get("file")
+    return read_arrays(str(collection.parent / file))
+
+
 def last_displacements(collection):
     """Of the points of all cells of a body, in the order of their places."""
-    file = list(xml.parse(collection).iter("DataSet"))[-1].get("file")
-    arrays = read_arrays(str(collection.parent / file))
+    arrays = last_arrays(collection)
     order = np.lexsort(np.round(arrays["positions"].astype(float), 5).T)
     return len(arrays["types"]), arrays["displacement"][order]
 
@@ -79,6 +83,17 @@ def check_pieces(name, one, other):
         size = np.abs(expected).max()
         if n_found != n or found.shape != expected.shape or not np.abs(found - expected).max() <= 1e-6 * size:
             errors.append(f"{name}: {collection.name} shows {n_found} cells, {n} on one process, or other displacements")
+
+
+def check_lines(name, one, other):
+    """Wires and links, whose points the root gathers from all ranks, are those of one process in their order."""
+    for stem in ("wires.pvd", "links.pvd"):
+        if not (one / "fields" / stem).exists():
+            continue
+        for array in ("positions", "displacement"):
+            expected, found = (last_arrays(folder / "fields" / stem)[array] for folder in (one, other))
+            if found.shape != expected.shape or not np.abs(found - expected).max() <= 1e-6 * np.abs(expected).max():
+                errors.append(f"{name}: {stem} has other {array}")
 
 
 def check_scene(scene, folder):
@@ -103,6 +118,7 @@ def check_scene(scene, folder):
         if file_names(outputs[ranks]) != names:
             errors.append(f"{scene.stem} on {ranks} ranks: other files")
         check_pieces(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
+        check_lines(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
         for name in names:
             if name.endswith(".csv") and name != "certificate.csv":
                 difference = largest_difference(one / name, outputs[ranks] / name)

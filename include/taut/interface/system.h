@@ -45,7 +45,7 @@ namespace taut
     static Constraint rope(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                            double length);
     /// A rope from the first of two places or more through rings without friction to the last one,
-    /// as over pulleys: `distance` is the sum of those from place to place.
+    /// as over pulleys: `distance` is the sum of the distances from place to place.
     static Constraint rope(const std::string &name, const std::vector<LinkEnd> &places,
                            double length);
     static Constraint prop(const std::string &name, const LinkEnd &a, const LinkEnd &b,

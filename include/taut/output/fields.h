@@ -38,8 +38,8 @@ namespace taut
     void finish() override;
 
   private:
-    /// Points of a file: each rank has the linear forms of the motion along x, y and z of those on
-    /// its bodies, the root has the places of all.
+    /// Points of a file: each rank has the linear forms of the motion along x, y and z of the
+    /// points on its bodies, the root has the places of all.
     struct Points
     {
       struct Moved
