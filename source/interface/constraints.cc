@@ -44,7 +44,7 @@ namespace taut
                            CutNumbers numbers)
       : Constraints(bodies, std::move(all))
   {
-    share_cuts(std::move(numbers));
+    share(std::move(numbers));
   }
 
   void Constraints::check(const Rows &rows) const
@@ -57,39 +57,51 @@ namespace taut
         });
   }
 
-  void Constraints::share_cuts(CutNumbers numbers)
+  void Constraints::share(CutNumbers numbers)
   {
-    const std::size_t n_common = size() - n_cuts;
-    shared_rows = std::make_shared<const DistributedRows>(
-        structure.communicator(), std::move(numbers.here), numbers.n_of_all, n_common);
+    shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
+                                                          std::move(numbers.here), numbers.n_of_all,
+                                                          common_rows().size());
   }
 
-  /// Other cuts in place of those of this rank.
-  void Constraints::replace_cuts(std::vector<ConstraintData> cuts)
+  /// Other rows, cuts first, in place of the first @p n ones.
+  void Constraints::replace_first(const std::size_t n, std::vector<ConstraintData> rows)
   {
-    const auto end_of_cuts = constraints.begin() + static_cast<std::ptrdiff_t>(n_cuts);
-    first_turning = first_turning - n_cuts + cuts.size();
-    first_sliding = first_sliding - n_cuts + cuts.size();
-    n_cuts = cuts.size();
-    cuts.insert(cuts.end(), std::make_move_iterator(end_of_cuts),
+    const std::size_t n_new = rows.size();
+    n_cuts = std::count_if(rows.begin(), rows.end(),
+                           [](const ConstraintData &row) { return row.is_cut(); });
+    first_common = n_new;
+    first_turning = first_turning - n + n_new;
+    first_sliding = first_sliding - n + n_new;
+    rows.insert(rows.end(),
+                std::make_move_iterator(constraints.begin() + static_cast<std::ptrdiff_t>(n)),
                 std::make_move_iterator(constraints.end()));
-    constraints = std::move(cuts);
+    constraints = std::move(rows);
   }
 
-  void Constraints::distribute()
+  void Constraints::distribute(const Distributed which)
   {
-    if (shared_rows)
+    if (shared_rows && which == Distributed::cuts)
       return;
-    CutNumbers numbers = {n_cuts};
-    std::vector<ConstraintData> cuts;
-    for (std::size_t i = 0; i < n_cuts; ++i)
-      if (!constraints[i].terms.empty())
-      {
-        cuts.push_back(std::move(constraints[i]));
-        numbers.here.push_back(i);
-      }
-    replace_cuts(std::move(cuts));
-    share_cuts(std::move(numbers));
+    const std::size_t n = which == Distributed::cuts ? n_cuts : first_turning;
+    // A row that all ranks have, and none has terms of, is that of the root.
+    std::vector<double> n_holders;
+    for (std::size_t i = n_cuts; i < n; ++i)
+      n_holders.push_back(constraints[i].terms.empty() ? 0. : 1.);
+    structure.communicator().sum(n_holders);
+    CutNumbers numbers = {n_of_all() - (size() - n)};
+    std::vector<ConstraintData> rows;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const bool is_of_root =
+          i >= n_cuts && n_holders[i - n_cuts] == 0. && structure.communicator().is_root();
+      if (constraints[i].terms.empty() && !is_of_root)
+        continue;
+      numbers.here.push_back(number(i));
+      rows.push_back(std::move(constraints[i]));
+    }
+    replace_first(n, std::move(rows));
+    share(std::move(numbers));
     arrange();
   }
 
@@ -97,19 +109,55 @@ namespace taut
   {
     if (!shared_rows)
       return;
-    const std::size_t n_of_cuts = n_of_all() - common_rows().size();
-    std::vector<std::size_t> numbers(n_of_cuts);
+    std::vector<std::size_t> numbers(n_of_all() - common_rows().size());
     std::iota(numbers.begin(), numbers.end(), 0);
     const std::vector<Label> known = labels(numbers);
-    std::vector<ConstraintData> cuts(n_of_cuts);
-    for (std::size_t number = 0; number < n_of_cuts; ++number)
+    std::vector<ConstraintData> cuts(numbers.size());
+    for (const std::size_t number : numbers)
       if (const std::size_t i = index(number); i < n_cuts)
         cuts[number] = std::move(constraints[i]);
       else
         cuts[number].name = known[number].name;
-    replace_cuts(std::move(cuts));
+    replace_first(n_cuts, std::move(cuts));
     shared_rows = nullptr;
     arrange();
+  }
+
+  std::vector<double> Constraints::of_links(const std::vector<double> &values,
+                                            const std::size_t n) const
+  {
+    std::vector<double> result(n, 0.);
+    for (std::size_t i = 0; i < size(); ++i)
+      if (constraints[i].link < n && (!shared_rows || is_own(i)))
+        result[constraints[i].link] = values[i];
+    if (shared_rows)
+      shared_rows->sum(result);
+    return result;
+  }
+
+  std::vector<double> Constraints::of_contact(const std::vector<double> &values,
+                                              const std::size_t contact) const
+  {
+    // The rows of a contact have successive numbers.
+    double before_end = 0.;
+    std::vector<double> n(1, 0.);
+    std::vector<std::size_t> own;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (constraints[i].contact == contact && (!shared_rows || is_own(i)))
+      {
+        before_end = std::max(before_end, static_cast<double>(n_of_all() - number(i)));
+        own.push_back(i);
+      }
+    n[0] = static_cast<double>(own.size());
+    if (shared_rows)
+      shared_rows->sum(n);
+    const std::size_t first = n_of_all() - static_cast<std::size_t>(max(before_end));
+    std::vector<double> result(static_cast<std::size_t>(n[0]), 0.);
+    for (const std::size_t i : own)
+      result[number(i) - first] = values[i];
+    if (shared_rows)
+      shared_rows->sum(result);
+    return result;
   }
 
   std::size_t Constraints::n_of_all() const
@@ -235,6 +283,7 @@ namespace taut
     n_cuts = std::stable_partition(constraints.begin(), end_of_fixed,
                                    [](const ConstraintData &c) { return c.is_cut(); }) -
              constraints.begin();
+    first_common = n_cuts;
     first_segments.assign(1, 0);
     for (const std::size_t i : turning_rows())
       first_segments.push_back(first_segments.back() + turning(i).size());
@@ -244,6 +293,7 @@ namespace taut
   {
     entries.clear();
     sizes.clear();
+    std::fill(row_index.begin(), row_index.end(), no_link);
     for (const std::size_t i : turning_rows())
       constraints[i].gap = turning(i).gap(turning(i).start.data());
     for (const std::size_t i : sliding_rows())

@@ -15,17 +15,17 @@ namespace taut
   void sum_together(const Communicator &processes,
                     std::initializer_list<std::vector<double> *> vectors);
 
-  /// Cuts, each on the ranks of its bodies, and then rows that all ranks have. The root owns these.
+  /// Rows on the ranks of their bodies, and then rows that all ranks have. The root owns these.
   class DistributedRows : public SharedRows
   {
   public:
-    /// @p cuts are the numbers of the cuts of this rank, ascending, of @p n_cuts of all ranks, each
-    /// of which a rank has. Called by all ranks together.
-    DistributedRows(const Communicator &processes, std::vector<std::size_t> cuts,
-                    std::size_t n_cuts, std::size_t n_common);
+    /// @p of_bodies are the numbers of those of this rank, ascending, of @p n_of_bodies of all
+    /// ranks, each of which a rank has. Called by all ranks together.
+    DistributedRows(const Communicator &processes, std::vector<std::size_t> of_bodies,
+                    std::size_t n_of_bodies, std::size_t n_common);
 
-    std::size_t n_of_all() const override { return n_cuts + n_common; }
-    std::size_t size() const override { return cuts.held().size() + n_common; }
+    std::size_t n_of_all() const override { return n_of_bodies + n_common; }
+    std::size_t size() const override { return of_bodies.held().size() + n_common; }
     std::size_t number(std::size_t i) const override;
     std::size_t index(std::size_t number) const override;
     bool is_own(std::size_t i) const override;
@@ -36,9 +36,9 @@ namespace taut
     void sum_entries(MatrixEntries &entries, std::size_t n_columns) const override;
 
   private:
-    std::size_t n_cuts, n_common;
-    RowMap cuts;
-    std::vector<char> is_own_cut;
+    std::size_t n_of_bodies, n_common;
+    RowMap of_bodies;
+    std::vector<char> owns;
     mutable std::vector<double> owned, common;
   };
 } // namespace taut

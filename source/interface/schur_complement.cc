@@ -133,15 +133,16 @@ namespace taut
     };
   } // namespace
 
-  bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
+  bool suits_distributed_rows(const InterfaceParameters &parameters, const Structure &structure,
                               const Constraints &constraints, const bool is_at_rest)
   {
     const Communicator &processes = structure.communicator();
     bool is_nonlinear = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
       is_nonlinear = is_nonlinear || !structure[k].is_linear();
-    const bool has_cuts = constraints.common_rows().size() < constraints.n_of_all();
-    if (processes.size() == 1 || !has_cuts || !constraints.turning_rows().empty() ||
+    const bool has_cuts = constraints.common_rows().size() < constraints.n_of_all(),
+               has_rows = has_cuts || (is_at_rest && !constraints.fixed_rows().empty());
+    if (processes.size() == 1 || !has_rows || !constraints.turning_rows().empty() ||
         processes.any(is_nonlinear))
       return false;
     if (parameters.form == "matrix-free")

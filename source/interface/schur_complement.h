@@ -57,10 +57,10 @@ namespace taut
     virtual InterfaceStatistics statistics() const { return {}; }
   };
 
-  /// Whether F is matrix-free on several ranks, by name, or at rest with so many cuts that it is by
-  /// itself: the ranks then do better to have their own cuts, see Constraints::distribute(). Of
+  /// Whether F is matrix-free on several ranks, by name, or at rest with so many rows that it is by
+  /// itself: the ranks then do better to have their own rows, see Constraints::distribute(). Of
   /// linear bodies without turning constraints. Called by all ranks together.
-  bool suits_distributed_cuts(const InterfaceParameters &parameters, const Structure &structure,
+  bool suits_distributed_rows(const InterfaceParameters &parameters, const Structure &structure,
                               const Constraints &constraints, bool is_at_rest);
 
   /// Throws UserError for unknown names; std::invalid_argument if constraints are distributed and

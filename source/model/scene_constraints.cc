@@ -462,8 +462,9 @@ namespace taut
   void choose_rows(Constraints &constraints, const InterfaceParameters &parameters,
                    const SceneBodies &bodies, const bool is_at_rest)
   {
-    if (suits_distributed_cuts(parameters, bodies, constraints, is_at_rest))
-      constraints.distribute();
+    if (suits_distributed_rows(parameters, bodies, constraints, is_at_rest))
+      constraints.distribute(is_at_rest ? Constraints::Distributed::fixed
+                                        : Constraints::Distributed::cuts);
     else
       constraints.gather_cuts();
   }

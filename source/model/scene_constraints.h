@@ -13,8 +13,8 @@ namespace taut
   /// links. Cuts are distributed if those of a body are. Called by all ranks together.
   Constraints scene_constraints(const Scene &scene, const SceneBodies &bodies);
 
-  /// Lets each rank have the cuts of its own bodies where this suits the representation of F, and
-  /// all ranks have all cuts elsewhere. Called by all ranks together.
+  /// Lets each rank have the cuts of its own bodies, and at rest all fixed rows, where this suits
+  /// the representation of F; all ranks have all rows elsewhere. Called by all ranks together.
   void choose_rows(Constraints &constraints, const InterfaceParameters &parameters,
                    const SceneBodies &bodies, bool is_at_rest);
 } // namespace taut

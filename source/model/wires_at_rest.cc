@@ -45,7 +45,8 @@ namespace taut
                            const Communicator &processes)
       : structure(bodies_of(scene, processes)),
         constraints(constraints_of(scene, structure, parameters)),
-        state(static_equilibrium(structure, constraints, parameters, 0.))
+        state(static_equilibrium(structure, constraints, parameters, 0.)),
+        forces(constraints.of_links(state.multiplier, scene.links.size()))
   {
   }
 

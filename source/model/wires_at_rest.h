@@ -28,7 +28,7 @@ namespace taut
     /// The force in a link [N].
     double multiplier(const std::size_t link) const
     {
-      return state.multiplier[constraints.index_of_link(link)];
+      return forces[link];
     }
 
     /// Distances of the ends of droppers along a direction for each [m].
@@ -39,6 +39,7 @@ namespace taut
     const SceneBodies structure;
     const Constraints constraints;
     const StaticState state;
+    const std::vector<double> forces; ///< of the links [N]
   };
 } // namespace taut
 

@@ -58,9 +58,9 @@ namespace taut
       return geometry.slave.dim == 1 ? add_scaled(point, 1., displacement) : point;
     }
 
-    /// @p first: row of the first node.
-    SurfaceForce sum_of(const ContactGeometry &geometry, const State &state,
-                        const std::size_t first, const std::vector<Coordinates> &displacements)
+    SurfaceForce sum_of(const ContactGeometry &geometry, const std::vector<double> &forces,
+                        const std::vector<double> &gaps,
+                        const std::vector<Coordinates> &displacements)
     {
       SurfaceForce result;
       Coordinates weighted;
@@ -69,8 +69,8 @@ namespace taut
       result.is_line = geometry.slave.dim == 1;
       for (std::size_t i = 0; i < all.size(); ++i)
       {
-        const double N = state.multiplier[first + i];
-        result.gap = std::min(result.gap, state.distance[first + i]);
+        const double N = forces[i];
+        result.gap = std::min(result.gap, gaps[i]);
         if (!(N > 0.))
           continue;
         ++result.n_closed;
@@ -168,6 +168,7 @@ namespace taut
     if (!line && !picture)
       return;
     std::vector<std::vector<Coordinates>> displacements;
+    std::vector<std::vector<double>> forces, gaps;
     for (std::size_t c = 0; c < contacts.size(); ++c)
     {
       const ContactGeometry &geometry = contacts[c].geometry;
@@ -175,21 +176,21 @@ namespace taut
           picture || geometry.slave.dim == 1
               ? displacements_of(geometry, step.scene.contacts[c].slave.body, step)
               : std::vector<Coordinates>(geometry.constraints.size()));
+      for (const auto &[values, of_contacts] :
+           {std::pair(&state.multiplier, &forces), std::pair(&state.distance, &gaps)})
+        of_contacts->push_back(step.constraints.of_contact(*values, c));
     }
     if (!is_root)
       return;
     for (std::size_t c = 0; c < contacts.size(); ++c)
     {
-      std::size_t first = 0;
-      while (step.constraints[first].contact != c)
-        ++first;
       if (line)
       {
-        contacts[c].last = sum_of(contacts[c].geometry, state, first, displacements[c]);
+        contacts[c].last = sum_of(contacts[c].geometry, forces[c], gaps[c], displacements[c]);
         write_line(contacts[c], state.time);
       }
       if (picture)
-        write_picture(contacts[c], state, first, displacements[c]);
+        write_picture(contacts[c], state.time, forces[c], gaps[c], displacements[c]);
     }
   }
 
@@ -213,25 +214,27 @@ namespace taut
     return result;
   }
 
-  void ContactTables::write_picture(Contact &contact, const State &state, const std::size_t first,
+  void ContactTables::write_picture(Contact &contact, const double time,
+                                    const std::vector<double> &forces,
+                                    const std::vector<double> &gaps,
                                     const std::vector<Coordinates> &displacements)
   {
-    std::vector<float> places, moved, pressure, gap;
+    std::vector<float> places, moved, pressure, distances;
     const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       append(all[i].point, places);
       append(displacements[i], moved);
-      pressure.push_back(static_cast<float>(state.multiplier[first + i] / all[i].area));
-      gap.push_back(static_cast<float>(state.distance[first + i]));
+      pressure.push_back(static_cast<float>(forces[i] / all[i].area));
+      distances.push_back(static_cast<float>(gaps[i]));
     }
     contact.picture->set(VtuFile::positions, places);
     contact.picture->set(contact.displacement, moved);
     contact.picture->set(contact.pressure, pressure);
-    contact.picture->set(contact.gap, gap);
+    contact.picture->set(contact.gap, distances);
     const std::string file = frame(contact.stem, contact.collection->size());
     contact.picture->write(fields_folder + file);
-    contact.collection->add(state.time, file);
+    contact.collection->add(time, file);
   }
 
   void ContactTables::save(OutputArchive &archive)

@@ -61,7 +61,8 @@ namespace taut
       SurfaceForce last;
     };
     void write_line(Contact &contact, double time);
-    void write_picture(Contact &contact, const State &state, std::size_t first,
+    void write_picture(Contact &contact, double time, const std::vector<double> &forces,
+                       const std::vector<double> &gaps,
                        const std::vector<Coordinates> &displacements);
 
     std::vector<Contact> contacts;

@@ -132,12 +132,14 @@ namespace taut
     set_forces(start);
     Balance share;
     add_bodies(start, share);
-    double sums[] = {share.kinetic, share.strain};
-    start.structure.communicator().sum(sums, 2);
+    for (std::size_t i = 0; i < start.constraints.size(); ++i)
+      if (start.constraints.is_own(i))
+        share.links += start.constraints[i].spring.energy(start.state.springs[i].u);
+    double sums[] = {share.kinetic, share.strain, share.links};
+    start.structure.communicator().sum(sums, 3);
     total.kinetic = sums[0];
     total.strain = sums[1];
-    for (const std::size_t i : start.constraints.common_rows())
-      total.links += start.constraints[i].spring.energy(start.state.springs[i].u);
+    total.links = sums[2];
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
     has_begun = true;

@@ -182,13 +182,16 @@ namespace taut
     next = step.state.time + interval;
     move_ends(step);
     const std::vector<float> of_wires = displacements(wires, step),
-                             of_links = displacements(ends, step);
+                             of_ends = displacements(ends, step);
+    const std::size_t n_links = link_of_end.empty() ? 0 : step.scene.links.size();
+    const std::vector<double> forces = step.constraints.of_links(step.state.multiplier, n_links),
+                              gaps = step.constraints.of_links(step.state.distance, n_links);
     if (wire_file)
       wire_file->set(wire_displacement, of_wires);
     if (link_file)
     {
-      link_file->set(link_displacement, of_links);
-      set_links(step);
+      link_file->set(link_displacement, of_ends);
+      set_links(forces, gaps);
     }
     const auto write_files = [&]
     {
@@ -264,15 +267,15 @@ namespace taut
     }
   }
 
-  void Fields::set_links(const StepView &step)
+  void Fields::set_links(const std::vector<double> &of_links,
+                         const std::vector<double> &gaps_of_links)
   {
     std::vector<float> forces, gaps, opened;
     for (const std::size_t link : link_of_end)
     {
-      const std::size_t constraint = step.constraints.index_of_link(link);
-      forces.push_back(static_cast<float>(step.state.multiplier[constraint]));
-      gaps.push_back(static_cast<float>(step.state.distance[constraint]));
-      opened.push_back(step.state.multiplier[constraint] == 0. ? 1.f : 0.f);
+      forces.push_back(static_cast<float>(of_links[link]));
+      gaps.push_back(static_cast<float>(gaps_of_links[link]));
+      opened.push_back(of_links[link] == 0. ? 1.f : 0.f);
     }
     link_file->set(VtuFile::positions, values_of(ends.places));
     link_file->set(force, forces);

@@ -113,35 +113,36 @@ namespace taut
     return result;
   }
 
-  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene, const Constraints &rows,
-                                                      const State &state)
+  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene,
+                                                      const std::vector<double> &forces,
+                                                      const std::vector<double> &gaps)
   {
     std::vector<std::string> result;
-    std::set<std::size_t> said; // rows
+    std::set<std::size_t> said; // links
+    std::vector<std::vector<std::size_t>> of_wires(scene.wires.size());
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
+      if (const Link &link = scene.links[i]; is_dropper_between_wires(link))
+        for (const std::size_t w : std::set<std::size_t>{link.from.index, link.to.index})
+          of_wires[w].push_back(i);
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
     {
-      std::vector<std::size_t> droppers;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].is_link() && rows[i].link < scene.links.size())
-          if (const Link &link = scene.links[rows[i].link]; is_dropper_between_wires(link))
-            if (link.from.index == w || link.to.index == w)
-              droppers.push_back(i);
+      const std::vector<std::size_t> &droppers = of_wires[w];
       if (droppers.empty() || said.count(droppers[0]) > 0 ||
           std::any_of(droppers.begin(), droppers.end(),
-                      [&](const std::size_t i) { return state.multiplier[i] != 0.; }))
+                      [&](const std::size_t i) { return forces[i] != 0.; }))
         continue;
       said.insert(droppers.begin(), droppers.end());
-      const std::size_t nearest = *std::min_element(droppers.begin(), droppers.end(),
-                                                    [&](const std::size_t a, const std::size_t b) {
-                                                      return state.distance[a] < state.distance[b];
-                                                    });
-      const Link &link = scene.links[rows[nearest].link];
+      const std::size_t nearest =
+          *std::min_element(droppers.begin(), droppers.end(),
+                            [&](const std::size_t a, const std::size_t b)
+                            { return gaps[a] < gaps[b]; });
+      const Link &link = scene.links[nearest];
       const bool is_one = droppers.size() == 1;
       result.push_back(to_text(
           std::setprecision(4),
           is_one ? "the only dropper" : to_text("all ", droppers.size(), " droppers"), " of wire '",
           scene.wires[w].name, is_one ? "' is" : "' are", " slack at the start, '", link.name,
-          is_one ? "'" : "' by the least", ", ", state.distance[nearest], " m",
+          is_one ? "'" : "' by the least", ", ", gaps[nearest], " m",
           link.unstressed_length > 0. ? to_text(" at its length of ", link.unstressed_length, " m")
                                       : "",
           ": no force goes from wire to wire. Check their lengths [m], the heights of the wires "

@@ -2,9 +2,7 @@
 #ifndef taut_rest_limits_h
 #define taut_rest_limits_h
 
-#include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/time/state.h>
 
 #include <string>
 #include <vector>
@@ -21,10 +19,11 @@ namespace taut
   std::vector<std::string> warnings_at_rest(const Scene &scene, const SceneBodies &structure,
                                             const BodyVectors &start);
 
-  /// A warning for each wire whose droppers from another wire are all slack in @p state; wires with
-  /// the same droppers have one.
-  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene, const Constraints &rows,
-                                                      const State &state);
+  /// A warning for each wire whose droppers from another wire are all slack; wires with the same
+  /// droppers have one. @p forces [N] and @p gaps [m] are those of the links.
+  std::vector<std::string> warnings_of_slack_droppers(const Scene &scene,
+                                                      const std::vector<double> &forces,
+                                                      const std::vector<double> &gaps);
 } // namespace taut
 
 #endif

@@ -267,16 +267,15 @@ namespace taut
     {
       Sliding &contact = contacts[k];
       const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
-      std::size_t row = 0;
-      while (step.constraints[row].contact != contact.contact)
-        ++row;
-      contact.facets.record(step.state.multiplier.data() + row);
+      const std::vector<double> forces =
+          step.constraints.of_contact(step.state.multiplier, contact.contact);
+      contact.facets.record(forces.data());
       const double n = contact.facets.faces(), least = contact.facets.least_faces();
       if (least / n > worst[facets].excess)
         worst[facets] = {least / n, n, least, time, k, 0};
-      for (std::size_t i = 0; i < all.size(); ++i, ++row)
+      for (std::size_t i = 0; i < all.size(); ++i)
       {
-        if (!(step.state.multiplier[row] > 0.))
+        if (!(forces[i] > 0.))
           continue;
         contact.carries = true;
         if (contact.can_slide)

@@ -259,6 +259,9 @@ namespace taut
         at_start[k][i] += motion->start().state.U[k][i];
     const ScenePlaces places = places_in_space(model, bodies, &at_start);
     const std::vector<double> heights = heights_at_rest();
+    const State &start = motion->start().state;
+    const std::vector<double> forces = links.of_links(start.multiplier, model.links.size()),
+                              gaps = links.of_links(start.distance, model.links.size());
     processes.agree(
         [&]
         {
@@ -274,7 +277,7 @@ namespace taut
               comments.push_back("Not used by it: " + entry);
           prepare_folder(parameters, comments);
           if (!model.links.empty())
-            write_start(places, heights);
+            write_start(places, heights, forces, gaps);
         });
   }
 

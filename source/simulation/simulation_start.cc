@@ -103,12 +103,14 @@ namespace taut
   void Simulation::print_links() const
   {
     const std::size_t n_rows = links.n_of_all();
-    std::size_t n_unilateral = 0, n_rigid = n_rows - links.common_rows().size(); // cuts
-    for (const std::size_t i : links.common_rows())
+    std::vector<double> unilateral, rigid;
+    for (std::size_t i = 0; i < links.size(); ++i)
     {
-      n_unilateral += links[i].cone.may_open();
-      n_rigid += links[i].spring.is_rigid();
+      unilateral.push_back(links[i].cone.may_open() ? 1. : 0.);
+      rigid.push_back(links[i].spring.is_rigid() ? 1. : 0.);
     }
+    const auto n_unilateral = static_cast<std::size_t>(links.total(unilateral)),
+               n_rigid = static_cast<std::size_t>(links.total(rigid));
     log << "  " << counted(n_rows, "multiplier") << ": " << n_unilateral << " unilateral, "
         << n_rows - n_unilateral << " bilateral; " << links.sliding_rows().size() << " moving; "
         << n_rigid << " rigid\n";
@@ -186,7 +188,9 @@ namespace taut
     for (const std::string &warning : warnings_at_rest(model, bodies, at_start))
       log << "Warning: " << warning << '\n';
     if (model.start == Start::equilibrium)
-      for (const std::string &warning : warnings_of_slack_droppers(model, links, start.state))
+      for (const std::string &warning : warnings_of_slack_droppers(
+               model, links.of_links(start.state.multiplier, model.links.size()),
+               links.of_links(start.state.distance, model.links.size())))
         log << "Warning: " << warning << '\n';
     observed = std::make_unique<ObservedRun>(*motion, model, bodies, parameters.output.folder,
                                              parameters.output.interval);
@@ -254,8 +258,7 @@ namespace taut
     rest = start.reference.displacement;
     for (std::size_t k = 0; k < rest.size(); ++k)
       rest[k] = displacement(start.reference, start.state, k);
-    for (const std::size_t i : links.common_rows())
-      forces_at_rest[links[i].name] = start.state.multiplier[i];
+    keep_forces_at_rest(model, links.of_links(start.state.multiplier, model.links.size()));
     const bool is_still = model.start == Start::equilibrium,
                has_sliding = !links.sliding_rows().empty();
     if (is_still && has_sliding && !(model.probes.empty() && spanned_wires(model).empty()))
@@ -270,8 +273,8 @@ namespace taut
         const StaticState alone =
             static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.);
         rest = alone.displacement;
-        for (std::size_t i = 0; i < fixed_constraints.size(); ++i)
-          forces_at_rest[fixed_constraints[i].name] = alone.multiplier[i];
+        keep_forces_at_rest(without,
+                            fixed_constraints.of_links(alone.multiplier, without.links.size()));
       }
       catch (const UserError &why)
       {
@@ -284,6 +287,13 @@ namespace taut
     // In a scene without motion the probes show the equilibrium itself.
     if (is_still && !model.probes.empty() && (has_time() || has_sliding))
       observed->set_rest_of_probes(rest);
+  }
+
+  void Simulation::keep_forces_at_rest(const Scene &scene, const std::vector<double> &of_links)
+  {
+    for (std::size_t l = 0; l < of_links.size() && processes.is_root(); ++l)
+      if (is_dropper_between_wires(scene.links[l]))
+        forces_at_rest[scene.links[l].name] = of_links[l];
   }
 
   /// Of the `to` ends of links between wires; 0 of others. Called by all ranks together.
@@ -318,29 +328,42 @@ namespace taut
              b.kind == LinkKind::joint && dot(a.direction, b.direction) == 0. &&
              is_same_or_ground(a.from, b.from) && is_same_or_ground(a.to, b.to);
     }
+
+    /// The links as their rows are in order: those that slide last, and before them those that
+    /// turn.
+    std::vector<std::size_t> in_order_of_rows(const Scene &scene)
+    {
+      std::vector<std::size_t> result(scene.links.size());
+      std::iota(result.begin(), result.end(), 0);
+      const auto place = [&](const std::size_t l)
+      { return scene.links[l].moving() ? 2 : scene.links[l].turns ? 1 : 0; };
+      std::stable_sort(result.begin(), result.end(),
+                       [&](const std::size_t a, const std::size_t b)
+                       { return place(a) < place(b); });
+      return result;
+    }
   } // namespace
 
   /// All rows of a ball joint have the place of the first one.
-  void Simulation::write_start(const ScenePlaces &places, const std::vector<double> &heights) const
+  void Simulation::write_start(const ScenePlaces &places, const std::vector<double> &heights,
+                               const std::vector<double> &forces,
+                               const std::vector<double> &gaps) const
   {
-    const State &start = motion->start().state;
     TableFile file(parameters.output.folder + "/start.csv",
                    {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
                     "length [m]", "stretched length [m]"});
     std::size_t placed = 0; ///< the link whose place is shown
-    for (std::size_t i = 0; i < links.size(); ++i)
+    for (const std::size_t l : in_order_of_rows(model))
     {
-      if (!links[i].is_link())
-        continue;
-      const Link &link = model.links[links[i].link];
+      const Link &link = model.links[l];
       if (!are_one_ball_joint(model.links[placed], link))
-        placed = links[i].link;
+        placed = l;
       const Coordinates &at = model.links[placed].to.kind == Attachment::Kind::ground
                                   ? places.links[placed].front()
                                   : places.links[placed].back();
-      file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.distance[i];
+      file << link.name << at.x << at.y << at.z << forces[l] << gaps[l];
       // A force makes droppers longer, other links shorter.
-      const double elongation = link.elongation(start.multiplier[i]);
+      const double elongation = link.elongation(forces[l]);
       // A rope is inclined: its ends come apart by more than it stretches.
       if (link.form.pull > 0.)
         file << link.unstressed_length << link.length;
@@ -372,17 +395,17 @@ namespace taut
                    {"dropper", "upper wire", "lower wire", "x [m]", "from the support before [m]",
                     "height of the lower end [m]", "cut length [m]", "static force [N]",
                     "length as built [m]"});
-    for (std::size_t i = 0; i < links.size(); ++i)
+    for (const std::size_t l : in_order_of_rows(model))
     {
-      if (!links[i].is_link() || !is_dropper_between_wires(model.links[links[i].link]))
+      const Link &link = model.links[l];
+      if (!is_dropper_between_wires(link))
         continue;
-      const Link &link = model.links[links[i].link];
-      const Coordinates &at = places.links[links[i].link].back();
+      const Coordinates &at = places.links[l].back();
       const auto next = std::upper_bound(masts.begin(), masts.end(), at.x);
       file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
            << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1))
-           << at.y + heights[links[i].link] << link.unstressed_length
-           << forces_at_rest.at(links[i].name) << link.length;
+           << at.y + heights[l] << link.unstressed_length << forces_at_rest.at(link.name)
+           << link.length;
       file.end_line();
     }
     file.close();

@@ -64,6 +64,7 @@ namespace taut
     row_of.assign(constraints.size(), rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r)
       row_of[rows[r].index] = r;
+    has_some = constraints.any(!rows.empty());
   }
 
   double ConstraintLaws::Row::mean_force(const double u) const
@@ -220,16 +221,20 @@ namespace taut
         result.force = std::max(result.force, std::fabs(at.multiplier[i] - rows[r].force(u[r])) *
                                                   F.diagonal(i) / terms);
     }
+    for (double *const of_all : {&result.gap, &result.force})
+      *of_all = constraints.max(*of_all);
     return result;
   }
 
   /// Derivative of the energy by s, at the part s of the way.
   double ConstraintLaws::slope_of_energy(const Point &from, const Point &to, const double s,
-                                         const std::vector<double> &S) const
+                                         const std::vector<double> &S)
   {
-    double sum = 0.;
-    for (const std::size_t i : constraints.common_rows()) // cuts do not move
+    slopes.assign(constraints.size(), 0.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
+      if (constraints[i].is_cut()) // does not move
+        continue;
       const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
                    L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];
       double of_spring = 0.;
@@ -237,14 +242,14 @@ namespace taut
         of_spring = std::max(0., rows[row_of[i]].force(-gap));
       else if (S[i] > 0.)
         of_spring = constraints[i].cone.project(-gap / S[i]);
-      sum += change * (L - of_spring);
+      slopes[i] = change * (L - of_spring);
     }
-    return sum;
+    return constraints.total(slopes);
   }
 
   /// Moves the end of the way to the least energy, unless the energy has certainly decreased: its
   /// derivative grows along the way.
-  void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
+  void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S)
   {
     const auto slope = [&](const double part) { return slope_of_energy(from, to, part, S); };
     if (!(slope(.5) + slope(1.) > 0.))

@@ -29,10 +29,11 @@ namespace taut
   class ConstraintLaws
   {
   public:
-    /// The argument is kept by reference.
+    /// The argument is kept by reference. Called by all ranks together, as is solve().
     explicit ConstraintLaws(const Constraints &constraints);
 
-    bool empty() const { return rows.empty(); }
+    /// Whether no constraint of any rank has a law.
+    bool empty() const { return !has_some; }
 
     /// Begins a step, or statics, from compression @p u [m, rad]. The constraint follows its law at
     /// the end of the step, with a damper @p damping (u - @p undamped) [N/m; m].
@@ -101,16 +102,18 @@ namespace taut
     Error error(const Point &at, const MixedComplementarityProblem &problem,
                 const ComplementarityOperator &F);
     double slope_of_energy(const Point &from, const Point &to, double s,
-                           const std::vector<double> &S) const;
-    void shorten(const Point &from, Point &to, const std::vector<double> &S) const;
+                           const std::vector<double> &S);
+    void shorten(const Point &from, Point &to, const std::vector<double> &S);
 
     const Constraints &constraints;
     std::vector<std::shared_ptr<const ForceLaw>> linear; ///< laws of conserving constraints
     std::vector<Row> rows;
     std::vector<std::size_t> row_of; ///< row of each constraint; rows.size(): no law
+    bool has_some = false;           ///< laws on any rank
 
-    // In solve(): gaps of the problem and their scales, compressions, and the last two iterates.
-    std::vector<double> free_gap, scale, compression, in_error;
+    // In solve(): gaps of the problem and their scales, compressions, slopes of the energies of the
+    // rows, and the last two iterates.
+    std::vector<double> free_gap, scale, compression, in_error, slopes;
     Point last, now;
   };
 } // namespace taut

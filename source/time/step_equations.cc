@@ -88,7 +88,7 @@ namespace taut
 
   void StepEquations::set_compliance(const std::vector<double> &S)
   {
-    if (S == compliance)
+    if (!constraints.any(S != compliance))
       return;
     compliance = S;
     schur->set_compliance(S);

@@ -56,12 +56,15 @@ namespace verification
     session.run(
         [&](const taut::StepView &view)
         {
-          for (std::size_t i = 0; i < view.constraints.size(); ++i)
-            if (view.constraints[i].is_link() || view.constraints[i].contact != taut::no_contact)
-            {
-              result.force.push_back(view.state.multiplier[i]);
-              result.gap.push_back(view.state.distance[i]);
-            }
+          for (const auto &[values, all] : {std::pair(&view.state.multiplier, &result.force),
+                                            std::pair(&view.state.distance, &result.gap)})
+          {
+            const auto add = [all = all](const std::vector<double> &more)
+            { all->insert(all->end(), more.begin(), more.end()); };
+            add(view.constraints.of_links(*values, view.scene.links.size()));
+            for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
+              add(view.constraints.of_contact(*values, c));
+          }
           result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
           add_displacements(view, n_nodes, result.displacement);
         });

@@ -50,12 +50,13 @@ namespace
         [&](const taut::StepView &view)
         {
           Record &now = is_start ? result.rest : result.motion;
-          for (std::size_t i = 0; i < view.constraints.size(); ++i)
-            if (view.constraints[i].is_link())
-            {
-              now.force.push_back(view.state.multiplier[i]);
-              now.gap.push_back(view.state.distance[i]);
-            }
+          for (const auto &[values, all] : {std::pair(&view.state.multiplier, &now.force),
+                                            std::pair(&view.state.distance, &now.gap)})
+          {
+            const std::vector<double> more =
+                view.constraints.of_links(*values, view.scene.links.size());
+            all->insert(all->end(), more.begin(), more.end());
+          }
           add_displacements(view, is_start ? view.reference.displacement : view.state.U,
                             now.displacement);
           is_start = false;
@@ -343,6 +344,32 @@ TEST(Ranks, laws_of_links_are_the_same)
                                 world());
     expect_same(where + "rest, ", one.rest, many.rest, 0.);
     expect_same(where + "motion, ", one.motion, many.motion, 0.);
+  }
+}
+
+// Claim: so at rest, where droppers, and stops with laws, live with their bodies. Expected: as above.
+TEST(Ranks, links_that_live_with_their_bodies_are_the_same)
+{
+  const Overrides rest = {"Time/End=0", "Output/Field interval=0"},
+                  spans = line(12, 2e-3, 1, .75) + rest;
+  const std::string reference_line = scene_file("en50318_2002_250");
+  const double bound = std::numeric_limits<double>::epsilon() * condition(spans, 0.);
+  for (const auto &[scene, overrides, tolerance] :
+       {std::tuple(reference_line, spans, bound), std::tuple(std::string(beam_under_laws), rest, 0.)})
+  {
+    const Record one = record(scene, overrides, taut::Communicator()).rest;
+    for (const unsigned int n : {1u, 5u, 24u})
+    {
+      const std::string where = "at rest, " + std::to_string(n) + " parts, " + ranks_and_comma();
+      SCOPED_TRACE(where);
+      const Record many =
+          record(scene,
+                 overrides + Overrides{"Partition/Number of substructures=" + std::to_string(n),
+                                       "Solver/Interface operator=matrix-free"},
+                 world())
+              .rest;
+      expect_same(where, one, many, tolerance);
+    }
   }
 }
 

@@ -111,8 +111,8 @@ namespace taut
 
   /**
    * The constraints of a system, with rows in the order cuts, other fixed ones, turning, sliding.
-   * All ranks have all of them, unless they are distributed: each rank then has the cuts that act
-   * on its bodies. All ranks have the rows that are no cuts, the common ones.
+   * All ranks have all of them, unless they are distributed: each rank then has the cuts, or all
+   * fixed ones, that act on its bodies. All ranks have the other rows, the common ones.
    */
   class Constraints
   {
@@ -126,11 +126,19 @@ namespace taut
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints,
                 CutNumbers numbers);
 
-    /// Each rank drops the cuts that do not act on its bodies. Only without turning constraints,
-    /// and for a matrix-free F. Called by all ranks together.
-    void distribute();
+    /// Which rows live with their bodies.
+    enum class Distributed
+    {
+      cuts,
+      fixed ///< cuts, links and contacts that do not slide
+    };
 
-    /// All ranks get all cuts, if they were distributed. Called by all ranks together.
+    /// Each rank drops those of these rows that do not act on its bodies. Only without turning
+    /// constraints, and for a matrix-free F. Called once, by all ranks together.
+    void distribute(Distributed which);
+
+    /// All ranks get all cuts, if those of a body are distributed from the start. Called by all
+    /// ranks together, in place of distribute().
     void gather_cuts();
 
     /// The distributed rows; null: all ranks have all of them.
@@ -140,10 +148,15 @@ namespace taut
     std::size_t size() const { return constraints.size(); }
     std::size_t n_of_all() const;
 
-    /// The rows that are no cuts, which all ranks have; and whether a row is owned by this rank:
-    /// each is by one.
-    boost::integer_range<std::size_t> common_rows() const { return {n_cuts, size()}; }
+    /// The rows that all ranks have, without cuts; and whether a row is owned by this rank: each is
+    /// by one.
+    boost::integer_range<std::size_t> common_rows() const { return {first_common, size()}; }
     bool is_own(std::size_t i) const;
+
+    /// Values over the rows of the first @p n links of the scene, and of all rows of one of its
+    /// contacts of surfaces, on all ranks; 0 of a link without a row. Called by all ranks together.
+    std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
+    std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact) const;
 
     /// Number of a row among those of all ranks, ascending with the row; and back.
     std::size_t number(std::size_t i) const;
@@ -303,7 +316,7 @@ namespace taut
     void largest_forces(const std::vector<double> &N,
                         std::vector<std::array<double, 2>> &result) const;
 
-    /// Row of the constraint of a link in the scene.
+    /// Row of the constraint of a link in the scene, where this rank has it.
     std::size_t index_of_link(std::size_t link) const { return row_index[link]; }
 
     /// Path of a constraint in the parameter file, for messages; may be empty.
@@ -318,10 +331,10 @@ namespace taut
     };
 
     void check(const Rows &rows) const;
-    void share_cuts(CutNumbers numbers);
+    void share(CutNumbers numbers);
     std::size_t n_segments() const { return first_segments.back(); }
     void add_motions_of_places(const BodyVectors &U, double *sum) const;
-    void replace_cuts(std::vector<ConstraintData> cuts);
+    void replace_first(std::size_t n, std::vector<ConstraintData> rows);
     void sort();
     void arrange();
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
@@ -332,8 +345,8 @@ namespace taut
     const Structure &structure;
     std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
-    std::size_t n_cuts = 0; ///< first rows, not on all ranks
-    std::size_t first_turning = 0, first_sliding = 0;
+    std::size_t n_cuts = 0, first_turning = 0, first_sliding = 0;
+    std::size_t first_common = 0; ///< of the rows that all ranks have
     std::vector<std::size_t> first_segments; ///< of each turning row, and their number
     std::shared_ptr<const SharedRows> shared_rows;
 

@@ -101,7 +101,9 @@ namespace taut
     void choose_scheme();
     std::vector<std::string> unused_scheme_entries() const;
     void prepare_results(bool resumes);
-    void write_start(const ScenePlaces &places, const std::vector<double> &heights) const;
+    void keep_forces_at_rest(const Scene &scene, const std::vector<double> &of_links);
+    void write_start(const ScenePlaces &places, const std::vector<double> &heights,
+                     const std::vector<double> &forces, const std::vector<double> &gaps) const;
     void write_droppers(const ScenePlaces &places, const std::vector<double> &heights) const;
     void add_observers();
     void make_accuracy_report();
@@ -129,7 +131,7 @@ namespace taut
     std::unique_ptr<Motion> motion;
     std::unique_ptr<ObservedRun> observed;
     BodyVectors rest;                             ///< see find_rest() [m, rad]
-    std::map<std::string, double> forces_at_rest; ///< of the links [N, N m]
+    std::map<std::string, double> forces_at_rest; ///< of droppers between wires, on the root [N]
     std::unique_ptr<AccuracyReport> accuracy;
     std::unique_ptr<ModelLimits> limits;
     std::unique_ptr<RestFigures> at_rest; ///< of a run without time
