@@ -47,6 +47,13 @@ namespace taut
     const bool is_inexact = matrix.is_iterative() && !stayed;
     double tolerance = is_inexact ? options.inexact_tolerance : options.linear_tolerance;
     bool is_settled = false;
+    // What came back of sets that were solved roughly is no cycle.
+    const auto solve_exactly = [&]
+    {
+      tolerance = options.linear_tolerance;
+      history.fill(0);
+      history[iterations % history.size()] = current;
+    };
     for (iterations = 0; iterations < options.max_iterations;)
     {
       if (!is_settled)
@@ -54,7 +61,11 @@ namespace taut
         ++iterations;
         collect_set(problem, matrix, solution);
         if (options.detect_cycles && comes_back(problem.shared))
-          return Outcome::cycle;
+        {
+          if (tolerance <= options.linear_tolerance)
+            return Outcome::cycle;
+          solve_exactly();
+        }
       }
 
       const auto outcome = system.solve(problem, matrix, set, tolerance, solution, terms);
@@ -68,7 +79,7 @@ namespace taut
         continue;
       if (tolerance > options.linear_tolerance)
       {
-        tolerance = options.linear_tolerance;
+        solve_exactly();
         continue;
       }
 
@@ -115,7 +126,7 @@ namespace taut
 
   bool SemismoothNewton::comes_back(const SharedRows *const rows)
   {
-    const std::uint64_t current = hash(set, rows);
+    current = hash(set, rows);
     if (iterations == 1)
       history.fill(0);
     const bool known = std::find(history.begin(), history.end(), current) != history.end();

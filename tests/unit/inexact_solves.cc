@@ -2,7 +2,8 @@
 // Claim: with an operator that iterates, Newton's method solves roughly while the active set
 // changes and exactly once it stays, from the multipliers it has; the answer is that of a direct
 // operator. Expected: the direct answer, fewer inner iterations than with exact solves throughout,
-// and fewer still from the multipliers of a neighbouring problem.
+// and fewer still from the multipliers of a neighbouring problem. A set that comes back because it
+// was solved roughly before is no cycle.
 #include "common.h"
 
 #include "base/dot.h"
@@ -122,4 +123,51 @@ TEST(InexactSolves, start_from_the_last_multipliers)
   other.start_from(result.solution.closed);
   other.solve(second.problem, cold);
   EXPECT_LT(F.n_iterations, .8 * cold.n_iterations);
+}
+
+namespace
+{
+  /// Two rows, the second of which has a small multiplier that rough solves miss.
+  class MissingOperator : public taut::DenseOperator
+  {
+  public:
+    MissingOperator() : DenseOperator(2)
+    {
+      set(0, 0, 1.);
+      set(1, 1, 1.);
+      set(1, 0, .5);
+    }
+    bool is_iterative() const override { return true; }
+    void set_tolerance(double value) override { tolerance = value; }
+    bool solve(const std::vector<std::size_t> &rows, const Vector &rhs, double shift,
+               Vector &x) override
+    {
+      const bool is_solved = DenseOperator::solve(rows, rhs, shift, x);
+      if (tolerance > 1e-8 && rows.size() == 2)
+        x[1] -= missed;
+      return is_solved;
+    }
+
+    static constexpr double missed = 3e-4;
+
+  private:
+    double tolerance = 0.;
+  };
+} // namespace
+
+TEST(InexactSolves, sets_of_rough_solves_are_no_cycle)
+{
+  // Of these, rough solves see the open gap of the larger one, and not that of the smaller one.
+  for (const double small : {1e-6, 2e-4})
+  {
+    MissingOperator F;
+    taut::MixedComplementarityProblem problem;
+    problem.cones.assign(2, taut::Cone::half_line());
+    F.apply({-1., -small}, problem.free_gap);
+    taut::ComplementaritySolver solver;
+    const taut::ComplementarityResult &result = solver.solve(problem, F);
+    EXPECT_FALSE(result.used_fallback);
+    EXPECT_NEAR(result.solution.multiplier[0], 1., 1e-12);
+    EXPECT_NEAR(result.solution.multiplier[1], small, 1e-12);
+  }
 }
