@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every scene of prm/ gives on several ranks the output, the files and the numbers of one process; so do mistakes."""
+import json
 import math
 import pathlib
 import re
@@ -90,14 +91,33 @@ def check_lines(name, one, other):
     for stem in ("wires.pvd", "links.pvd"):
         if not (one / "fields" / stem).exists():
             continue
-        for array in ("positions", "displacement"):
-            expected, found = (last_arrays(folder / "fields" / stem)[array] for folder in (one, other))
-            if found.shape != expected.shape or not np.abs(found - expected).max() <= 1e-6 * np.abs(expected).max():
+        expected, found = (last_arrays(folder / "fields" / stem) for folder in (one, other))
+        rounding = 1e-6 * np.abs(expected["positions"]).max()  # of the gaps of what is closed
+        for array in ("positions", "displacement", "force", "gap"):
+            values, others = (of.get(array, np.zeros(1)) for of in (expected, found))
+            size = max(np.abs(values).max(), rounding if array == "gap" else 0.)
+            if others.shape != values.shape or not np.abs(others - values).max() <= 1e-6 * size:
                 errors.append(f"{name}: {stem} has other {array}")
 
 
-def check_scene(scene, folder):
+def check_figures_at_rest(name, one, other):
+    """Forces and gaps of links and contacts are those of one process, in one order."""
+    expected, found = (json.loads((folder / "statistics.json").read_text()) for folder in (one, other))
+    for section in ("links", "contacts"):
+        if list(expected[section]) != list(found[section]):
+            errors.append(f"{name}: statistics.json has other {section}")
+            continue
+        for quantity in {q for item in expected[section].values() for q in item}:
+            values, others = (np.array([np.ravel(item[quantity]["value"]) for item in of[section].values()], dtype=float)
+                              for of in (expected, found))
+            if not np.abs(others - values).max() <= 1e-6 * np.abs(values).max():
+                errors.append(f"{name}: {quantity} of {section} in statistics.json differs")
+
+
+def check_scene(scene, folder, at_rest=False):
     options = [scene, "--overwrite", *entries(*SHORT.get(scene.stem, []))]
+    if at_rest:
+        options += entries("Time/End=0", "Solver/Interface operator=matrix-free")
     outputs = {}
     # Three ranks once with a moving contact, once with fewer bodies than ranks.
     several = (arguments.ranks, 3) if scene.stem in ("en50318_2002_250", "oscillator_with_stop") else (arguments.ranks,)
@@ -119,13 +139,15 @@ def check_scene(scene, folder):
             errors.append(f"{scene.stem} on {ranks} ranks: other files")
         check_pieces(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
         check_lines(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
+        if at_rest:
+            check_figures_at_rest(f"{scene.stem} on {ranks} ranks", one, outputs[ranks])
         for name in names:
             if name.endswith(".csv") and name != "certificate.csv":
                 difference = largest_difference(one / name, outputs[ranks] / name)
                 worst = max(worst, difference)
                 if not difference < 1e-7:
                     errors.append(f"{scene.stem} on {ranks} ranks: {name} differs by {difference:.1e}")
-    print(f"figure | {scene.stem}, {' and '.join(map(str, several))} ranks, 4 parts, tables | {worst:.1e} 1")
+    print(f"figure | {scene.stem}{', at rest' * at_rest}, {' and '.join(map(str, several))} ranks, 4 parts, tables | {worst:.1e} 1")
 
 
 def check_same_words(options, code):
@@ -149,6 +171,10 @@ with tempfile.TemporaryDirectory() as name:
         if scene.stem == "en50318_2002_250":
             SHORT[scene.stem] = ["Time/End=0.3", "Statistics/Window="]
         check_scene(scene, scratch)
+    # Where links and contacts live with their bodies.
+    SHORT.clear()
+    for stem in "en50318_2002_250", "hertz_cylinder", "block_on_block":
+        check_scene(arguments.prm / f"{stem}.prm", scratch, at_rest=True)
     line = str(arguments.prm / "en50318_2002_250.prm")
     stop = str(arguments.prm / "oscillator_with_stop.prm")
     out = ["--set", f"Output/Folder={scratch}/words", "--overwrite"]
