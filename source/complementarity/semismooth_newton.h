@@ -62,8 +62,8 @@ namespace taut
     std::vector<double> terms, weights;
 
     /// Hashes of the last sets: cycles of up to this length are caught at their first return.
-    std::array<std::uint64_t, 32> history = {}; ///< hashes of the last sets, and of the present one
-    std::uint64_t current = 0;
+    std::array<std::uint64_t, 32> history = {};
+    std::uint64_t current = 0; ///< hash of the present set
   };
 } // namespace taut
 

@@ -27,7 +27,7 @@ namespace taut
                              : may_open[i] ? Cone::half_line()
                                            : Cone::zero());
     rows.gather(problem.free_gap, result.free_gap);
-    if (!problem.gap_scale.empty())
+    if (problem.any(!problem.gap_scale.empty())) // a rank without rows has an empty one
       rows.gather(problem.gap_scale, result.gap_scale);
     result.null_space_load = problem.null_space_load;
     result.null_space_terms = problem.null_space_terms;

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -41,10 +42,12 @@ namespace taut
   }
 
   Constraints::Constraints(const Lasting<Structure> bodies, std::vector<ConstraintData> all,
-                           CutNumbers numbers)
+                           RowNumbers numbers)
       : Constraints(bodies, std::move(all))
   {
     share(std::move(numbers));
+    which_are_distributed = Distributed::cuts;
+    number_contacts();
   }
 
   void Constraints::check(const Rows &rows) const
@@ -57,7 +60,7 @@ namespace taut
         });
   }
 
-  void Constraints::share(CutNumbers numbers)
+  void Constraints::share(RowNumbers numbers)
   {
     shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
                                                           std::move(numbers.here), numbers.n_of_all,
@@ -81,15 +84,21 @@ namespace taut
 
   void Constraints::distribute(const Distributed which)
   {
-    if (shared_rows && which == Distributed::cuts)
+    if (is_chosen)
+      throw std::logic_error("constraints are distributed once");
+    is_chosen = true;
+    if (which == which_are_distributed)
       return;
+    if (which == Distributed::nothing)
+      return gather_cuts();
+    which_are_distributed = which;
     const std::size_t n = which == Distributed::cuts ? n_cuts : first_turning;
     // A row that all ranks have, and none has terms of, is that of the root.
     std::vector<double> n_holders;
     for (std::size_t i = n_cuts; i < n; ++i)
       n_holders.push_back(constraints[i].terms.empty() ? 0. : 1.);
     structure.communicator().sum(n_holders);
-    CutNumbers numbers = {n_of_all() - (size() - n)};
+    RowNumbers numbers = {n_of_all() - (size() - n)};
     std::vector<ConstraintData> rows;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -107,8 +116,6 @@ namespace taut
 
   void Constraints::gather_cuts()
   {
-    if (!shared_rows)
-      return;
     std::vector<std::size_t> numbers(n_of_all() - common_rows().size());
     std::iota(numbers.begin(), numbers.end(), 0);
     const std::vector<Label> known = labels(numbers);
@@ -120,7 +127,36 @@ namespace taut
         cuts[number].name = known[number].name;
     replace_first(n_cuts, std::move(cuts));
     shared_rows = nullptr;
+    which_are_distributed = Distributed::nothing;
+    number_contacts();
     arrange();
+  }
+
+  void Constraints::number_contacts()
+  {
+    of_contacts.clear();
+    for (const std::size_t i : rows_but_cuts())
+    {
+      const std::size_t contact = constraints[i].contact;
+      if (contact == no_contact)
+        continue;
+      of_contacts.resize(std::max(of_contacts.size(), contact + 1));
+      if (of_contacts[contact].n++ == 0)
+        of_contacts[contact].first = number(i);
+    }
+  }
+
+  void Constraints::add_up(std::vector<double> &values) const
+  {
+    if (which_are_distributed == Distributed::fixed)
+      shared_rows->sum(values);
+  }
+
+  double Constraints::added_up(double value) const
+  {
+    if (which_are_distributed == Distributed::fixed)
+      structure.communicator().sum(&value, 1);
+    return value;
   }
 
   std::vector<double> Constraints::of_links(const std::vector<double> &values,
@@ -128,35 +164,22 @@ namespace taut
   {
     std::vector<double> result(n, 0.);
     for (std::size_t i = 0; i < size(); ++i)
-      if (constraints[i].link < n && (!shared_rows || is_own(i)))
+      if (constraints[i].link < n && counts(i))
         result[constraints[i].link] = values[i];
-    if (shared_rows)
-      shared_rows->sum(result);
+    add_up(result);
     return result;
   }
 
   std::vector<double> Constraints::of_contact(const std::vector<double> &values,
                                               const std::size_t contact) const
   {
-    // The rows of a contact have successive numbers.
-    double before_end = 0.;
-    std::vector<double> n(1, 0.);
-    std::vector<std::size_t> own;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (constraints[i].contact == contact && (!shared_rows || is_own(i)))
-      {
-        before_end = std::max(before_end, static_cast<double>(n_of_all() - number(i)));
-        own.push_back(i);
-      }
-    n[0] = static_cast<double>(own.size());
-    if (shared_rows)
-      shared_rows->sum(n);
-    const std::size_t first = n_of_all() - static_cast<std::size_t>(max(before_end));
-    std::vector<double> result(static_cast<std::size_t>(n[0]), 0.);
-    for (const std::size_t i : own)
-      result[number(i) - first] = values[i];
-    if (shared_rows)
-      shared_rows->sum(result);
+    if (contact >= of_contacts.size())
+      return {};
+    std::vector<double> result(of_contacts[contact].n, 0.);
+    for (const std::size_t i : rows_but_cuts())
+      if (constraints[i].contact == contact && counts(i))
+        result[number(i) - of_contacts[contact].first] = values[i];
+    add_up(result);
     return result;
   }
 
@@ -284,6 +307,7 @@ namespace taut
                                    [](const ConstraintData &c) { return c.is_cut(); }) -
              constraints.begin();
     first_common = n_cuts;
+    number_contacts();
     first_segments.assign(1, 0);
     for (const std::size_t i : turning_rows())
       first_segments.push_back(first_segments.back() + turning(i).size());

@@ -96,10 +96,12 @@ namespace taut
       (static_cast<std::size_t>(entries.row[e]) < n_of_bodies ? on_some : of_common)
           .add(entries.row[e], entries.column[e], entries.value[e]);
     of_bodies.sum_entries(on_some, n_columns);
+    entries = std::move(on_some);
+    if (n_common == 0)
+      return;
     of_common.compress();
     taut::gather(of_bodies.communicator(), of_common);
     of_common.compress();
-    entries = std::move(on_some);
     for (std::size_t e = 0; e < of_common.size(); ++e)
       entries.add(of_common.row[e], of_common.column[e], of_common.value[e]);
   }

@@ -445,7 +445,7 @@ namespace taut
     constraints.reserve(constraints.size() + of_surfaces.size() + bodies.cut_constraints().size());
     for (ConstraintData &constraint : of_surfaces)
       constraints.push_back(std::move(constraint));
-    CutNumbers numbers{bodies.n_cuts()};
+    RowNumbers numbers{bodies.n_cuts()};
     for (const CutConstraint &cut : bodies.cut_constraints())
     {
       ConstraintData constraint{cut.name};
@@ -462,10 +462,10 @@ namespace taut
   void choose_rows(Constraints &constraints, const InterfaceParameters &parameters,
                    const SceneBodies &bodies, const bool is_at_rest)
   {
-    if (suits_distributed_rows(parameters, bodies, constraints, is_at_rest))
-      constraints.distribute(is_at_rest ? Constraints::Distributed::fixed
-                                        : Constraints::Distributed::cuts);
-    else
-      constraints.gather_cuts();
+    using Distributed = Constraints::Distributed;
+    constraints.distribute(!suits_distributed_rows(parameters, bodies, constraints, is_at_rest)
+                               ? Distributed::nothing
+                           : is_at_rest ? Distributed::fixed
+                                        : Distributed::cuts);
   }
 } // namespace taut

@@ -345,7 +345,7 @@ namespace taut
     const Constraints::Rows common = step.constraints.common_rows();
     for (std::size_t i = 0; i < *common.begin(); ++i)
       if (step.constraints.is_own(i))
-        add_row(step, i, share); // a cut, which does no more than work
+        add_row(step, i, share); // a cut, as in motion no other row is distributed
     double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
                      share.contacts, share.damping, share.algorithmic};
     step.structure.communicator().sum(sums, 7);

@@ -32,6 +32,7 @@ namespace taut
     }
     sums = contact_sums(parameters.sums, sliding_contacts(scene, rows));
     links.reserve(scene.links.size());
+    index_of_link.assign(scene.links.size(), no_link);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
       {
@@ -335,7 +336,8 @@ namespace taut
   {
     double n_slackenings = 0.;
     for (const std::size_t link : span.droppers)
-      n_slackenings += links[index_of_link[link]].dropper.n_slackenings;
+      if (const std::size_t own = index_of_link[link]; own != no_link)
+        n_slackenings += links[own].dropper.n_slackenings;
     std::vector<Figure> list = {{"sag", "m", span.sag}, {"slackenings", "1", n_slackenings}};
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (const Contact &contact = contacts[c]; contact.wire == wire.wire)

@@ -329,8 +329,8 @@ namespace taut
              is_same_or_ground(a.from, b.from) && is_same_or_ground(a.to, b.to);
     }
 
-    /// The links as their rows are in order: those that slide last, and before them those that
-    /// turn.
+    /// The links in the order of their rows, see Constraints: those that slide last, and before them
+    /// those that turn.
     std::vector<std::size_t> in_order_of_rows(const Scene &scene)
     {
       std::vector<std::size_t> result(scene.links.size());

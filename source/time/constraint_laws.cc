@@ -221,19 +221,22 @@ namespace taut
         result.force = std::max(result.force, std::fabs(at.multiplier[i] - rows[r].force(u[r])) *
                                                   F.diagonal(i) / terms);
     }
-    for (double *const of_all : {&result.gap, &result.force})
-      *of_all = constraints.max(*of_all);
+    if (constraints.distributed() == Constraints::Distributed::fixed)
+    {
+      result.gap = constraints.max(result.gap);
+      result.force = constraints.max(result.force);
+    }
     return result;
   }
 
   /// Derivative of the energy by s, at the part s of the way.
   double ConstraintLaws::slope_of_energy(const Point &from, const Point &to, const double s,
-                                         const std::vector<double> &S)
+                                         const std::vector<double> &S) const
   {
-    slopes.assign(constraints.size(), 0.);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    double sum = 0.;
+    for (const std::size_t i : constraints.rows_but_cuts()) // cuts do not move
     {
-      if (constraints[i].is_cut()) // does not move
+      if (!constraints.counts(i))
         continue;
       const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
                    L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];
@@ -242,14 +245,14 @@ namespace taut
         of_spring = std::max(0., rows[row_of[i]].force(-gap));
       else if (S[i] > 0.)
         of_spring = constraints[i].cone.project(-gap / S[i]);
-      slopes[i] = change * (L - of_spring);
+      sum += change * (L - of_spring);
     }
-    return constraints.total(slopes);
+    return constraints.added_up(sum);
   }
 
   /// Moves the end of the way to the least energy, unless the energy has certainly decreased: its
   /// derivative grows along the way.
-  void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S)
+  void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
   {
     const auto slope = [&](const double part) { return slope_of_energy(from, to, part, S); };
     if (!(slope(.5) + slope(1.) > 0.))

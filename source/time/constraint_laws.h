@@ -102,8 +102,8 @@ namespace taut
     Error error(const Point &at, const MixedComplementarityProblem &problem,
                 const ComplementarityOperator &F);
     double slope_of_energy(const Point &from, const Point &to, double s,
-                           const std::vector<double> &S);
-    void shorten(const Point &from, Point &to, const std::vector<double> &S);
+                           const std::vector<double> &S) const;
+    void shorten(const Point &from, Point &to, const std::vector<double> &S) const;
 
     const Constraints &constraints;
     std::vector<std::shared_ptr<const ForceLaw>> linear; ///< laws of conserving constraints
@@ -111,9 +111,8 @@ namespace taut
     std::vector<std::size_t> row_of; ///< row of each constraint; rows.size(): no law
     bool has_some = false;           ///< laws on any rank
 
-    // In solve(): gaps of the problem and their scales, compressions, slopes of the energies of the
-    // rows, and the last two iterates.
-    std::vector<double> free_gap, scale, compression, in_error, slopes;
+    // In solve(): gaps of the problem and their scales, compressions, and the last two iterates.
+    std::vector<double> free_gap, scale, compression, in_error;
     Point last, now;
   };
 } // namespace taut

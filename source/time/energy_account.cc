@@ -375,7 +375,9 @@ namespace taut
     }
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)
-      springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.springs[i].u);
+      if (constraints.counts(i))
+        springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.springs[i].u);
+    constraints.add_up(springs);
     for (std::size_t g = 0; g < n; ++g)
     {
       groups[g].kinetic = std::max(groups[g].kinetic, sums[g]);

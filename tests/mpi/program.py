@@ -35,6 +35,64 @@ SHORT = {  # what makes a long scene short
 }
 
 
+CONTRADICTION = """
+set Generator = network
+set Gravity   = 0, 0
+subsection Network
+  set Wires    = upper, lower
+  set Supports = of upper, of lower
+  set Links    = first, second, stop
+  subsection Wire upper
+    set From              = 0, 1
+    set To                = 20, 1
+    set Components        = beam
+    set Mass per length   = 1
+    set Bending stiffness = 2e4
+    set Element size      = 0.5
+  end
+  subsection Wire lower
+    set From              = 0, 0
+    set To                = 20, 0
+    set Components        = beam
+    set Mass per length   = 1
+    set Bending stiffness = 2e4
+    set Element size      = 0.5
+  end
+  subsection Support of upper
+    set Wire      = upper
+    set Positions = 0, 20
+  end
+  subsection Support of lower
+    set Wire      = lower
+    set Positions = 0, 20
+  end
+  subsection Link first
+    set Type      = joint
+    set From      = upper @ 5
+    set To        = lower @ 5
+    set Direction = 0, -1
+  end
+  subsection Link second
+    set Type      = joint
+    set From      = upper @ 5
+    set To        = lower @ 5
+    set Direction = 0, -1
+    set Gap       = 0.01
+  end
+  subsection Link stop
+    set Type      = stop
+    set From      = ground
+    set To        = lower @ 2:3:17
+    set Direction = 0, 1
+    set Gap       = 0.001
+  end
+end
+subsection Time
+  set End = 0
+end
+"""  # two joints between the same places
+
+
 def run(ranks, options):
     command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
     return subprocess.run(command, capture_output=True, text=True, timeout=900)
@@ -185,6 +243,12 @@ with tempfile.TemporaryDirectory() as name:
     check_same_words([stop, "--unknown"], 1)
     check_same_words([line, *out, "--set", "Time/End=9", "--set", "Time/Step=0.1"], 1)  # leaves its wire
     check_same_words([stop, "--set", "Output/Folder=/proc/none"], 1)  # only the root fails
+    # On ranks without a row, and with rows of their own.
+    contradiction = scratch / "contradiction.prm"
+    contradiction.write_text(CONTRADICTION)
+    for parts in 1, 4:
+        check_same_words([str(contradiction), *out, *entries(f"Partition/Number of substructures={parts}",
+                                                             "Solver/Interface operator=matrix-free")], 1)
     # A folder is where the root wants to write, at the first step: all ranks end with its error.
     blocked = scratch / "blocked"
     (blocked / "rigid_bodies.csv" / "kept").mkdir(parents=True)

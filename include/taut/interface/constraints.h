@@ -102,10 +102,10 @@ namespace taut
                                   std::size_t segment, const Coordinates &direction,
                                   double stiffness, const Coordinates &motion);
 
-  /// Which cuts a rank has, where not all ranks have all of them.
-  struct CutNumbers
+  /// Which of the first rows a rank has, where not all ranks have all of them.
+  struct RowNumbers
   {
-    std::size_t n_of_all = 0;           ///< cuts of all ranks
+    std::size_t n_of_all = 0;           ///< of all ranks
     std::vector<std::size_t> here = {}; ///< numbers of those of this rank, ascending
   };
 
@@ -124,22 +124,23 @@ namespace taut
     /// Rows that are distributed from the start: the cuts among @p constraints, in their order, are
     /// those with @p numbers. Called by all ranks together.
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints,
-                CutNumbers numbers);
+                RowNumbers numbers);
 
-    /// Which rows live with their bodies.
+    /// Which rows live with their bodies: cuts, or these and the links and contacts that do not
+    /// slide.
     enum class Distributed
     {
+      nothing,
       cuts,
-      fixed ///< cuts, links and contacts that do not slide
+      fixed
     };
 
-    /// Each rank drops those of these rows that do not act on its bodies. Only without turning
-    /// constraints, and for a matrix-free F. Called once, by all ranks together.
+    /// Each rank drops those of these rows that do not act on its bodies: for a matrix-free F, and
+    /// without turning constraints. With Distributed::nothing all ranks get all cuts, if those of a
+    /// body are distributed from the start. Throws std::logic_error if called twice. Called by all
+    /// ranks together.
     void distribute(Distributed which);
-
-    /// All ranks get all cuts, if those of a body are distributed from the start. Called by all
-    /// ranks together, in place of distribute().
-    void gather_cuts();
+    Distributed distributed() const { return which_are_distributed; }
 
     /// The distributed rows; null: all ranks have all of them.
     const SharedRows *shared() const { return shared_rows.get(); }
@@ -148,13 +149,23 @@ namespace taut
     std::size_t size() const { return constraints.size(); }
     std::size_t n_of_all() const;
 
-    /// The rows that all ranks have, without cuts; and whether a row is owned by this rank: each is
-    /// by one.
+    /// The rows that are no cuts; those of them that are not distributed, which all ranks have; and
+    /// whether a row is owned by this rank: each is by one.
+    boost::integer_range<std::size_t> rows_but_cuts() const { return {n_cuts, size()}; }
     boost::integer_range<std::size_t> common_rows() const { return {first_common, size()}; }
     bool is_own(std::size_t i) const;
 
+    /// A sum over the rows that are no cuts has those that each rank counts(), and is then added up
+    /// over the ranks. Where all ranks have these rows, each counts them, and nothing is added.
+    bool counts(const std::size_t i) const
+    {
+      return which_are_distributed != Distributed::fixed || is_own(i);
+    }
+    void add_up(std::vector<double> &values) const;
+    double added_up(double value) const;
+
     /// Values over the rows of the first @p n links of the scene, and of all rows of one of its
-    /// contacts of surfaces, on all ranks; 0 of a link without a row. Called by all ranks together.
+    /// contacts of surfaces, on all ranks. Called by all ranks together.
     std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
     std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact) const;
 
@@ -316,7 +327,7 @@ namespace taut
     void largest_forces(const std::vector<double> &N,
                         std::vector<std::array<double, 2>> &result) const;
 
-    /// Row of the constraint of a link in the scene, where this rank has it.
+    /// Row of the constraint of a link in the scene; no_link where this rank does not have it.
     std::size_t index_of_link(std::size_t link) const { return row_index[link]; }
 
     /// Path of a constraint in the parameter file, for messages; may be empty.
@@ -331,7 +342,9 @@ namespace taut
     };
 
     void check(const Rows &rows) const;
-    void share(CutNumbers numbers);
+    void share(RowNumbers numbers);
+    void gather_cuts();
+    void number_contacts();
     std::size_t n_segments() const { return first_segments.back(); }
     void add_motions_of_places(const BodyVectors &U, double *sum) const;
     void replace_first(std::size_t n, std::vector<ConstraintData> rows);
@@ -347,6 +360,15 @@ namespace taut
     std::vector<std::size_t> row_index;
     std::size_t n_cuts = 0, first_turning = 0, first_sliding = 0;
     std::size_t first_common = 0; ///< of the rows that all ranks have
+    Distributed which_are_distributed = Distributed::nothing;
+    bool is_chosen = false; ///< which rows are distributed
+
+    /// The first number and how many there are, of the rows of a contact of surfaces.
+    struct RowsOfContact
+    {
+      std::size_t first = 0, n = 0;
+    };
+    std::vector<RowsOfContact> of_contacts;
     std::vector<std::size_t> first_segments; ///< of each turning row, and their number
     std::shared_ptr<const SharedRows> shared_rows;
 
