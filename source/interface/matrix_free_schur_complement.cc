@@ -79,6 +79,12 @@ namespace taut
     constexpr double least_reduction = 1e-11;
     constexpr int least_bound = 10; ///< of the iterations in a restart
 
+    /// Bound of the iterations of a system, over the most that one took so far, and beside these. A
+    /// right-hand side that is rounding may be no image of dependent rows: conjugate gradients then
+    /// iterate without an end. Systems of the same bodies take similar numbers otherwise; an
+    /// exact solution takes at most some ten times those of a rough one.
+    constexpr int times_the_last_ones = 10, room = 1000;
+
     /// Iterations that cost as much as a factor of a body, with two solutions each: 16 of a plate
     /// of 10 000 DoFs, 30 and 50 of blocks of 15 000 and 46 000 DoFs in space.
     constexpr int worth_a_factor = 30;
@@ -161,6 +167,7 @@ namespace taut
     preconditioner.reset();
     preconditioner.follow_sets(false);
     follows_sets = follows_in_vain = false;
+    most_iterations = 0;
     is_changed.assign(body_constraints.size(), 1);
     is_stale = true;
     body_constraints.update();
@@ -440,7 +447,10 @@ namespace taut
       return largest_of_all(r);
     };
     ++counts.n_systems;
-    int bound = 100 + 10 * static_cast<int>(constraints.n_of_all());
+    int n_of_system = 0;
+    int bound = room + times_the_last_ones * (most_iterations > 0
+                                                  ? most_iterations
+                                                  : static_cast<int>(constraints.n_of_all()));
     double best = residual(), size = larger(largest_of_all(b), largest_of_all(x));
     for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {
@@ -448,6 +458,7 @@ namespace taut
           std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest_of_all(r)));
       const int n = conjugate_gradients(F, inverse, r, reduction, bound, step);
       counts.n_iterations += n;
+      n_of_system += n;
       follow_sets_if_worth(n);
       bound = std::max(n, least_bound); // a restart reduces less; more iterations mean rounding
       project(step);
@@ -461,6 +472,9 @@ namespace taut
       x = candidate;
     }
     F.set_projector(nullptr);
-    return std::isfinite(best) && best <= accepted_excess * tolerance * size;
+    const bool is_solved = std::isfinite(best) && best <= accepted_excess * tolerance * size;
+    if (is_solved)
+      most_iterations = std::max(most_iterations, n_of_system);
+    return is_solved;
   }
 } // namespace taut
