@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include "simulation/free_bodies.h"
+#include "base/gather_entries.h"
 #include "base/groups.h"
 #include "base/text.h"
 
@@ -50,16 +51,25 @@ namespace taut
       return result;
     }
 
-    /// Whether a place of a turning link is no place of a body.
-    bool is_held(const TurningDirection &link)
+    /// Whether a place of each turning link is no place of a body of any rank.
+    std::vector<char> held_links(const Structure &structure, const Constraints &constraints)
     {
-      return std::any_of(link.places.begin(), link.places.end(),
-                         [](const LinkEnd &place)
-                         {
-                           return std::all_of(place.motion.begin(), place.motion.end(),
-                                              [](const std::vector<Term> &terms)
-                                              { return terms.empty(); });
-                         });
+      std::vector<double> n_forms; // of each place
+      for (const std::size_t i : constraints.turning_rows())
+        for (const LinkEnd &place : constraints.turning(i).places)
+          n_forms.push_back(static_cast<double>(
+              std::count_if(place.motion.begin(), place.motion.end(),
+                            [](const std::vector<Term> &terms) { return !terms.empty(); })));
+      structure.communicator().sum(n_forms);
+      std::vector<char> result;
+      std::size_t next = 0;
+      for (const std::size_t i : constraints.turning_rows())
+      {
+        result.push_back(0);
+        for (std::size_t p = 0; p < constraints.turning(i).places.size(); ++p)
+          result.back() |= n_forms[next++] == 0.;
+      }
+      return result;
     }
 
     /// What a turning link holds: its segments also across themselves, like a pendulum.
@@ -74,15 +84,17 @@ namespace taut
     }
   } // namespace
 
-  std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
+  std::vector<char> free_bodies(const Structure &structure,
+                                const std::vector<Substructure::NullSpace> &null_spaces,
                                 const Constraints &constraints, const Vector &multiplier)
   {
-    const std::size_t n = null_spaces.size();
+    const std::size_t n = null_spaces.size(), ground = structure.all_bodies().size();
     std::vector<std::vector<Vector>> opposed(n);
-    Groups bodies(n + 1); // n is the ground
+    MatrixEntries ends, joins; // of closed rows; of bodies by number, and the ground
     for (std::size_t k = 0; k < n; ++k)
       if (null_spaces[k].vectors.empty())
-        bodies.join(k, n);
+        joins.add(structure.number(k), ground, 1.);
+    const std::vector<char> is_held = held_links(structure, constraints);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!constraints[i].cone.is_closed(multiplier[i]))
@@ -90,24 +102,36 @@ namespace taut
       const std::vector<std::vector<Term>> forms =
           constraints.turns(i) ? motions_of(constraints.turning(i))
                                : std::vector<std::vector<Term>>{constraints[i].terms};
-      std::set<std::size_t> ends;
+      std::set<std::size_t> own;
       for (const Term &term : constraints[i].terms)
-        ends.insert(term.substructure);
-      if (constraints.turns(i) ? is_held(constraints.turning(i)) : ends.size() == 1)
-        ends.insert(n);
-      for (const std::size_t k : ends)
+        own.insert(term.substructure);
+      for (const std::size_t k : own)
       {
-        bodies.join(*ends.begin(), k);
-        if (k < n && !null_spaces[k].vectors.empty())
-        {
-          for (const std::vector<Term> &form : forms)
+        ends.add(constraints.number(i), structure.number(k), 1.);
+        for (const std::vector<Term> &form : forms)
+          if (!null_spaces[k].vectors.empty())
             extend(opposed[k], work(form, k, null_spaces[k]));
-        }
       }
+      if (constraints.turns(i) && is_held[constraints.turning_index(i)])
+        ends.add(constraints.number(i), ground, 1.);
     }
+    // A row with one body is between it and the ground, unless it turns.
+    constraints.sum_entries(ends, ground + 1);
+    for (std::size_t e = 0, last = 0; e < ends.size(); e = last)
+    {
+      while (last < ends.size() && ends.row[last] == ends.row[e])
+        joins.add(ends.column[e], ends.column[last++], 1.);
+      if (last == e + 1 && !constraints.turns(constraints.index(ends.row[e])))
+        joins.add(ends.column[e], ground, 1.);
+    }
+    gather(structure.communicator(), joins);
+    Groups bodies(ground + 1);
+    for (std::size_t e = 0; e < joins.size(); ++e)
+      bodies.join(joins.row[e], joins.column[e]);
     std::vector<char> result(n);
     for (std::size_t k = 0; k < n; ++k)
-      result[k] = !bodies.are_joined(k, n) || opposed[k].size() < null_spaces[k].vectors.size();
+      result[k] = !bodies.are_joined(structure.number(k), ground) ||
+                  opposed[k].size() < null_spaces[k].vectors.size();
     return result;
   }
 

@@ -15,9 +15,10 @@ namespace taut
    * constraints count, and unilateral ones with a multiplier. A body is free if they join it to
    * neither a held body nor the ground, directly or through others. It is also free if its own
    * constraints leave one of its motions free. Motions that several bodies have only together,
-   * with constraints to the ground, are not found.
+   * with constraints to the ground, are not found. Called by all ranks together.
    */
-  std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
+  std::vector<char> free_bodies(const Structure &structure,
+                                const std::vector<Substructure::NullSpace> &null_spaces,
                                 const Constraints &constraints,
                                 const std::vector<double> &multiplier);
 

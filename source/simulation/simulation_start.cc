@@ -18,6 +18,7 @@
 #include <cmath>
 #include <numeric>
 #include <ostream>
+#include <set>
 
 namespace taut
 {
@@ -197,14 +198,16 @@ namespace taut
     observed->stop_if(stop_asked);
   }
 
-  /// Names of selected bodies: "'a', 'b' and 3 more".
+  /// Names of selected bodies: "'a', 'b' and 3 more". Parts of one have one name.
   std::string Simulation::names_of(const std::vector<char> &some) const
   {
     std::string names;
+    std::set<std::string> known;
     std::size_t n = 0;
     for (std::size_t i = 0; i < some.size(); ++i)
-      if (some[i] && ++n <= most_named)
-        names += (n > 1 ? ", '" : "'") + bodies.all_bodies()[i].name + "'";
+      if (const std::string &name = bodies.all_bodies()[i].name;
+          some[i] && known.insert(name).second && ++n <= most_named)
+        names += (n > 1 ? ", '" : "'") + name + "'";
     return names + (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
   }
 
@@ -238,7 +241,7 @@ namespace taut
     for (std::size_t k = 0; k < bodies.size(); ++k)
       null_spaces.push_back(bodies[k].null_space());
     const std::vector<char> free =
-        free_bodies(null_spaces, links, motion->start().state.multiplier);
+        free_bodies(bodies, null_spaces, links, motion->start().state.multiplier);
     std::vector<double> flags(bodies.all_bodies().size(), 0.);
     for (std::size_t k = 0; k < bodies.size(); ++k)
       flags[bodies.number(k)] = free[k];
