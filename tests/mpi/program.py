@@ -249,9 +249,9 @@ with tempfile.TemporaryDirectory() as name:
     for parts in 1, 4:
         check_same_words([str(contradiction), *out, *entries(f"Partition/Number of substructures={parts}",
                                                              "Solver/Interface operator=matrix-free")], 1)
-    # The ends of what holds the parts of a wire are on several ranks.
-    check_same_words([str(contradiction), *out, *entries("Network/Link second/Gap=0", "Network/Support of lower/Wire=upper",
-                                                         "Network/Support of lower/Positions=4",
+    # Nothing holds the parts of a wire along it; each has ends on other ranks.
+    check_same_words([str(contradiction), *out, *entries("Network/Link second/Gap=0", "Network/Wire lower/Components=bar, beam",
+                                                         "Network/Wire lower/Axial stiffness=1e6",
                                                          "Partition/Number of substructures=4")], 0)
     # A folder is where the root wants to write, at the first step: all ranks end with its error.
     blocked = scratch / "blocked"
