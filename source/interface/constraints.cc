@@ -62,9 +62,8 @@ namespace taut
 
   void Constraints::share(RowNumbers numbers)
   {
-    shared_rows = std::make_shared<const DistributedRows>(structure.communicator(),
-                                                          std::move(numbers.here), numbers.n_of_all,
-                                                          common_rows().size());
+    shared_rows = std::make_shared<const DistributedRows>(
+        structure.communicator(), std::move(numbers.here), numbers.n_of_all, common_rows().size());
   }
 
   /// Other rows, cuts first, in place of the first @p n ones.

@@ -26,8 +26,9 @@ namespace taut
 
   DistributedRows::DistributedRows(const Communicator &processes, std::vector<std::size_t> own,
                                    const std::size_t n_of_bodies, const std::size_t n_common)
-      : n_of_bodies(n_of_bodies), n_common(n_common), of_bodies(processes, std::move(own), n_of_bodies),
-        owns(of_bodies.held().size(), 0), owned(of_bodies.owned().size())
+      : n_of_bodies(n_of_bodies), n_common(n_common),
+        of_bodies(processes, std::move(own), n_of_bodies), owns(of_bodies.held().size(), 0),
+        owned(of_bodies.owned().size())
   {
     for (const std::size_t number : of_bodies.owned())
       owns[index(number)] = 1;

@@ -89,7 +89,7 @@ namespace taut
     bool follows_in_vain = false; ///< it was, and a system took as many iterations
     bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
     double tolerance;             ///< relative residual at which a solve ends
-    int most_iterations = 0; ///< of a system that was solved since setup()
+    int most_iterations = 0;      ///< of a system that was solved since setup()
     InterfaceStatistics counts;
     std::vector<double> constraint_work, coarse_part, coarse_motion;
     mutable BodyVectors work;

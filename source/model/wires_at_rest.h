@@ -26,10 +26,7 @@ namespace taut
                 const Communicator &processes);
 
     /// The force in a link [N].
-    double multiplier(const std::size_t link) const
-    {
-      return forces[link];
-    }
+    double multiplier(const std::size_t link) const { return forces[link]; }
 
     /// Distances of the ends of droppers along a direction for each [m].
     std::vector<double> distances(const std::vector<FoundDropper> &droppers,

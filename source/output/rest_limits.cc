@@ -132,10 +132,9 @@ namespace taut
                       [&](const std::size_t i) { return forces[i] != 0.; }))
         continue;
       said.insert(droppers.begin(), droppers.end());
-      const std::size_t nearest =
-          *std::min_element(droppers.begin(), droppers.end(),
-                            [&](const std::size_t a, const std::size_t b)
-                            { return gaps[a] < gaps[b]; });
+      const std::size_t nearest = *std::min_element(droppers.begin(), droppers.end(),
+                                                    [&](const std::size_t a, const std::size_t b)
+                                                    { return gaps[a] < gaps[b]; });
       const Link &link = scene.links[nearest];
       const bool is_one = droppers.size() == 1;
       result.push_back(to_text(

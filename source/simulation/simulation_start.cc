@@ -332,14 +332,15 @@ namespace taut
              is_same_or_ground(a.from, b.from) && is_same_or_ground(a.to, b.to);
     }
 
-    /// The links in the order of their rows, see Constraints: those that slide last, and before them
-    /// those that turn.
+    /// The links in the order of their rows, see Constraints: those that slide last, and before
+    /// them those that turn.
     std::vector<std::size_t> in_order_of_rows(const Scene &scene)
     {
       std::vector<std::size_t> result(scene.links.size());
       std::iota(result.begin(), result.end(), 0);
-      const auto place = [&](const std::size_t l)
-      { return scene.links[l].moving() ? 2 : scene.links[l].turns ? 1 : 0; };
+      const auto place = [&](const std::size_t l) {
+        return scene.links[l].moving() ? 2 : scene.links[l].turns ? 1 : 0;
+      };
       std::stable_sort(result.begin(), result.end(),
                        [&](const std::size_t a, const std::size_t b)
                        { return place(a) < place(b); });
@@ -406,9 +407,8 @@ namespace taut
       const Coordinates &at = places.links[l].back();
       const auto next = std::upper_bound(masts.begin(), masts.end(), at.x);
       file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
-           << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1))
-           << at.y + heights[l] << link.unstressed_length << forces_at_rest.at(link.name)
-           << link.length;
+           << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1)) << at.y + heights[l]
+           << link.unstressed_length << forces_at_rest.at(link.name) << link.length;
       file.end_line();
     }
     file.close();

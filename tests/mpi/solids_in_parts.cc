@@ -104,8 +104,8 @@ namespace
 } // namespace
 
 // Claim: where F is matrix-free, a rank has the cuts of its own bodies and no others, each is owned
-// by one rank; at rest it is so with links and contacts, too, and in steps these are on all of them.
-// Expected: the run of one process without cuts, U to 1e-9 of the largest, forces to 1e-7.
+// by one rank; at rest it is so with links and contacts, too, and in steps these are on all of
+// them. Expected: the run of one process without cuts, U to 1e-9 of the largest, forces to 1e-7.
 TEST(Ranks, rows_live_with_their_bodies)
 {
   const taut::Communicator world(MPI_COMM_WORLD);
@@ -117,7 +117,8 @@ TEST(Ranks, rows_live_with_their_bodies)
     bool is_at_rest, has_sliding;
   };
   for (const auto &[scene, more, is_at_rest, has_sliding] :
-       {Case{"hertz_cylinder", {}, true, false}, Case{"en50318_2002_250", {"Time/End=0"}, true, true},
+       {Case{"hertz_cylinder", {}, true, false},
+        Case{"en50318_2002_250", {"Time/End=0"}, true, true},
         Case{"block_impact", {"Time/End=0.1"}, false, false},
         Case{"block_impact",
              {"Time/End=0.1", "Time/Scheme=generalised-alpha", "Time/Allow unsuitable scheme=true"},

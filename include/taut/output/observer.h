@@ -38,6 +38,9 @@ namespace taut
   {
     const Scene &scene;
     const SceneBodies &structure;
+
+    /// Its rows are those of the state. In a run at rest on several ranks, a rank may have those of
+    /// its own bodies alone: Constraints::of_links() and of_contact() have the values of all.
     const Constraints &constraints;
     const Reference &reference;
     const State &state;
