@@ -172,14 +172,21 @@ namespace taut
   std::vector<double> Constraints::of_contact(const std::vector<double> &values,
                                               const std::size_t contact) const
   {
-    if (contact >= of_contacts.size())
-      return {};
-    std::vector<double> result(of_contacts[contact].n, 0.);
+    std::vector<double> result;
+    copy_of_contact(values, contact, result);
+    return result;
+  }
+
+  void Constraints::copy_of_contact(const std::vector<double> &values, const std::size_t contact,
+                                    std::vector<double> &to) const
+  {
+    const RowsOfContact rows =
+        contact < of_contacts.size() ? of_contacts[contact] : RowsOfContact();
+    to.assign(rows.n, 0.);
     for (const std::size_t i : rows_but_cuts())
       if (constraints[i].contact == contact && counts(i))
-        result[number(i) - of_contacts[contact].first] = values[i];
-    add_up(result);
-    return result;
+        to[number(i) - rows.first] = values[i];
+    add_up(to);
   }
 
   std::size_t Constraints::n_of_all() const

@@ -267,8 +267,7 @@ namespace taut
     {
       Sliding &contact = contacts[k];
       const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
-      const std::vector<double> forces =
-          step.constraints.of_contact(step.state.multiplier, contact.contact);
+      step.constraints.copy_of_contact(step.state.multiplier, contact.contact, forces);
       contact.facets.record(forces.data());
       const double n = contact.facets.faces(), least = contact.facets.least_faces();
       if (least / n > worst[facets].excess)

@@ -144,7 +144,7 @@ namespace taut
     std::vector<Turning> bodies;
     std::vector<Sliding> contacts;
     LinearForms forms;
-    std::vector<double> values, displacement; ///< the latter of a body
+    std::vector<double> values, forces, displacement; ///< of a contact, and of a body
     std::array<Worst, n_kinds> worst;
   };
 } // namespace taut

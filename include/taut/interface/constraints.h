@@ -168,6 +168,8 @@ namespace taut
     /// contacts of surfaces, on all ranks. Called by all ranks together.
     std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
     std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact) const;
+    void copy_of_contact(const std::vector<double> &values, std::size_t contact,
+                         std::vector<double> &to) const;
 
     /// Number of a row among those of all ranks, ascending with the row; and back.
     std::size_t number(std::size_t i) const;
