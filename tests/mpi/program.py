@@ -150,11 +150,10 @@ def check_lines(name, one, other):
         if not (one / "fields" / stem).exists():
             continue
         expected, found = (last_arrays(folder / "fields" / stem) for folder in (one, other))
-        way = np.abs(expected["displacement"]).max()  # of which gaps are differences
         for array in ("positions", "displacement", "force", "gap"):
             values, others = (of.get(array, np.zeros(1)) for of in (expected, found))
-            size = max(np.abs(values).max(), way if array == "gap" else 0.)
-            if others.shape != values.shape or not np.abs(others - values).max() <= 1e-6 * size:
+            rounding = 1e-12 if array == "gap" else 0.  # [m, rad] of what is closed
+            if others.shape != values.shape or not np.abs(others - values).max() <= 1e-6 * np.abs(values).max() + rounding:
                 errors.append(f"{name}: {stem} has other {array}")
 
 
