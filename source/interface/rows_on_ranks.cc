@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The rows of constraints on several ranks: which ones a rank has, and what is made of all of them.
+#include "base/gather_entries.h"
+#include "interface/distributed_rows.h"
+#include <taut/base/archive.h>
+#include <taut/interface/constraints.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace taut
+{
+  void Constraints::share(RowNumbers numbers)
+  {
+    shared_rows = std::make_shared<const DistributedRows>(
+        structure.communicator(), std::move(numbers.here), numbers.n_of_all, common_rows().size());
+  }
+
+  /// Other rows, cuts first, in place of the first @p n ones.
+  void Constraints::replace_first(const std::size_t n, std::vector<ConstraintData> rows)
+  {
+    const std::size_t n_new = rows.size();
+    n_cuts = std::count_if(rows.begin(), rows.end(),
+                           [](const ConstraintData &row) { return row.is_cut(); });
+    first_common = n_new;
+    first_turning = first_turning - n + n_new;
+    first_sliding = first_sliding - n + n_new;
+    rows.insert(rows.end(),
+                std::make_move_iterator(constraints.begin() + static_cast<std::ptrdiff_t>(n)),
+                std::make_move_iterator(constraints.end()));
+    constraints = std::move(rows);
+  }
+
+  void Constraints::distribute(const Distributed which)
+  {
+    if (is_chosen)
+      throw std::logic_error("constraints are distributed once");
+    is_chosen = true;
+    if (which == which_are_distributed)
+      return;
+    if (which == Distributed::nothing)
+      return gather_cuts();
+    which_are_distributed = which;
+    const std::size_t n = which == Distributed::cuts ? n_cuts : first_turning;
+    // A row that all ranks have, and none has terms of, is that of the root.
+    std::vector<double> n_holders;
+    for (std::size_t i = n_cuts; i < n; ++i)
+      n_holders.push_back(constraints[i].terms.empty() ? 0. : 1.);
+    structure.communicator().sum(n_holders);
+    RowNumbers numbers = {n_of_all() - (size() - n)};
+    std::vector<ConstraintData> rows;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const bool is_of_root =
+          i >= n_cuts && n_holders[i - n_cuts] == 0. && structure.communicator().is_root();
+      if (constraints[i].terms.empty() && !is_of_root)
+        continue;
+      numbers.here.push_back(number(i));
+      rows.push_back(std::move(constraints[i]));
+    }
+    replace_first(n, std::move(rows));
+    share(std::move(numbers));
+    arrange();
+  }
+
+  void Constraints::gather_cuts()
+  {
+    std::vector<std::size_t> numbers(n_of_all() - common_rows().size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const std::vector<Label> known = labels(numbers);
+    std::vector<ConstraintData> cuts(numbers.size());
+    for (const std::size_t number : numbers)
+      if (const std::size_t i = index(number); i < n_cuts)
+        cuts[number] = std::move(constraints[i]);
+      else
+        cuts[number].name = known[number].name;
+    replace_first(n_cuts, std::move(cuts));
+    shared_rows = nullptr;
+    which_are_distributed = Distributed::nothing;
+    number_contacts();
+    arrange();
+  }
+
+  void Constraints::number_contacts()
+  {
+    of_contacts.clear();
+    for (const std::size_t i : rows_but_cuts())
+    {
+      const std::size_t contact = constraints[i].contact;
+      if (contact == no_contact)
+        continue;
+      of_contacts.resize(std::max(of_contacts.size(), contact + 1));
+      if (of_contacts[contact].n++ == 0)
+        of_contacts[contact].first = number(i);
+    }
+  }
+
+  void Constraints::add_up(std::vector<double> &values) const
+  {
+    if (which_are_distributed == Distributed::fixed)
+      shared_rows->sum(values);
+  }
+
+  double Constraints::added_up(double value) const
+  {
+    if (which_are_distributed == Distributed::fixed)
+      structure.communicator().sum(&value, 1);
+    return value;
+  }
+
+  std::vector<double> Constraints::of_links(const std::vector<double> &values,
+                                            const std::size_t n) const
+  {
+    std::vector<double> result(n, 0.);
+    for (std::size_t i = 0; i < size(); ++i)
+      if (constraints[i].link < n && counts(i))
+        result[constraints[i].link] = values[i];
+    add_up(result);
+    return result;
+  }
+
+  std::vector<double> Constraints::of_contact(const std::vector<double> &values,
+                                              const std::size_t contact) const
+  {
+    std::vector<double> result;
+    copy_of_contact(values, contact, result);
+    return result;
+  }
+
+  void Constraints::copy_of_contact(const std::vector<double> &values, const std::size_t contact,
+                                    std::vector<double> &to) const
+  {
+    const RowsOfContact rows =
+        contact < of_contacts.size() ? of_contacts[contact] : RowsOfContact();
+    to.assign(rows.n, 0.);
+    for (const std::size_t i : rows_but_cuts())
+      if (constraints[i].contact == contact && counts(i))
+        to[number(i) - rows.first] = values[i];
+    add_up(to);
+  }
+
+  std::size_t Constraints::n_of_all() const
+  {
+    return shared_rows ? shared_rows->n_of_all() : size();
+  }
+
+  bool Constraints::is_own(const std::size_t i) const
+  {
+    return shared_rows ? shared_rows->is_own(i) : structure.communicator().is_root();
+  }
+
+  std::size_t Constraints::number(const std::size_t i) const
+  {
+    return shared_rows ? shared_rows->number(i) : i;
+  }
+
+  std::size_t Constraints::index(const std::size_t number) const
+  {
+    return shared_rows ? shared_rows->index(number) : number;
+  }
+
+  std::vector<std::size_t> Constraints::here(const std::vector<std::size_t> &numbers) const
+  {
+    std::vector<std::size_t> result;
+    for (const std::size_t number : numbers)
+      if (const std::size_t i = index(number); i < size())
+        result.push_back(i);
+    return result;
+  }
+
+  void Constraints::sum(const std::initializer_list<std::vector<double> *> vectors) const
+  {
+    if (shared_rows)
+      return shared_rows->sum_rows(vectors);
+    sum_together(structure.communicator(), vectors);
+  }
+
+  void Constraints::sum_entries(MatrixEntries &entries, const std::size_t n_columns) const
+  {
+    if (shared_rows)
+      return shared_rows->sum_entries(entries, n_columns);
+    taut::gather(structure.communicator(), entries);
+    entries.compress();
+  }
+
+  double Constraints::max(const double value) const
+  {
+    return shared_rows ? shared_rows->max(value) : value;
+  }
+
+  double Constraints::total(const std::vector<double> &values) const
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!shared_rows || shared_rows->is_own(i))
+        sum += values[i];
+    if (shared_rows)
+      structure.communicator().sum(&sum, 1);
+    return sum;
+  }
+
+  void Constraints::pick(std::vector<double> &values) const
+  {
+    if (!shared_rows)
+      return;
+    const std::vector<double> all = values;
+    shared_rows->pick(all, values);
+  }
+
+  void Constraints::gather(const std::vector<double> &values, std::vector<double> &all) const
+  {
+    if (shared_rows)
+      shared_rows->gather(values, all);
+    else
+      all = values;
+  }
+
+  std::vector<Constraints::Label> Constraints::labels(const std::vector<std::size_t> &numbers) const
+  {
+    std::map<std::size_t, Label> found;
+    for (const std::size_t i : here(numbers))
+      found[number(i)] = {constraints[i].name, constraints[i].origin};
+    if (shared_rows)
+    {
+      std::map<std::size_t, std::pair<std::string, std::string>> own;
+      for (const auto &[number, label] : found)
+        if (is_own(index(number)))
+          own[number] = {label.name, label.origin};
+      for (const std::string &text : structure.communicator().gather(
+               archived([&](OutputArchive &archive) { archive << own; })))
+      {
+        unarchive(text, [&](InputArchive &archive) { archive >> own; });
+        for (const auto &[number, label] : own)
+          found[number] = {label.first, label.second};
+      }
+    }
+    std::vector<Label> result;
+    for (const auto &[number, label] : found)
+      result.push_back(label);
+    return result;
+  }
+
+  std::string Constraints::names(const std::vector<Label> &labels)
+  {
+    std::string text;
+    const std::size_t shown = std::min<std::size_t>(labels.size(), 8);
+    for (std::size_t k = 0; k < shown; ++k)
+      text += (k == 0 ? "'" : ", '") + labels[k].name + "'";
+    if (shown < labels.size())
+      text += " and " + std::to_string(labels.size() - shown) + " more";
+    return text;
+  }
+
+  std::size_t Constraints::number_of_any(const std::size_t i) const
+  {
+    if (!shared_rows)
+      return i;
+    const double found = shared_rows->max(i < size() ? static_cast<double>(number(i)) : -1.);
+    return found < 0. ? no_link : static_cast<std::size_t>(found);
+  }
+} // namespace taut
