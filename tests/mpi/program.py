@@ -42,31 +42,19 @@ subsection Network
   set Wires    = upper, lower
   set Supports = of upper, of lower
   set Links    = first, second, stop
-  subsection Wire upper
-    set From              = 0, 1
-    set To                = 20, 1
+""" + "".join(f"""  subsection Wire {name}
+    set From              = 0, {height}
+    set To                = 20, {height}
     set Components        = beam
     set Mass per length   = 1
     set Bending stiffness = 2e4
     set Element size      = 0.5
   end
-  subsection Wire lower
-    set From              = 0, 0
-    set To                = 20, 0
-    set Components        = beam
-    set Mass per length   = 1
-    set Bending stiffness = 2e4
-    set Element size      = 0.5
-  end
-  subsection Support of upper
-    set Wire      = upper
+  subsection Support of {name}
+    set Wire      = {name}
     set Positions = 0, 20
   end
-  subsection Support of lower
-    set Wire      = lower
-    set Positions = 0, 20
-  end
-  subsection Link first
+""" for name, height in (("upper", 1), ("lower", 0))) + """  subsection Link first
     set Type      = joint
     set From      = upper @ 5
     set To        = lower @ 5
