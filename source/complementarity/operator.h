@@ -49,7 +49,8 @@ namespace taut
      * F_ii - F_ia F_aa^-1 F_ai of the rows @p wanted with the ordered rows a of @p set, 0
      * elsewhere: what row i moves under a unit multiplier while the rows of the set remain closed.
      * Dependent rows of the set are solved with the @p shift. The default takes one product and one
-     * solve() for each wanted row, which is on all ranks where rows are @p shared.
+     * solve() for each wanted row. Where rows are @p shared, the wanted ones are the same on all
+     * ranks, and SharedRows::elsewhere on a rank that does not have them.
      */
     virtual void condensed_diagonal(const std::vector<std::size_t> &wanted,
                                     const std::vector<std::size_t> &set, double shift,

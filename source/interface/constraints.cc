@@ -38,8 +38,8 @@ namespace taut
                            RowNumbers numbers)
       : Constraints(bodies, std::move(all))
   {
+    n_all_cuts = numbers.n_of_all;
     share(std::move(numbers));
-    which_are_distributed = Distributed::cuts;
     number_contacts();
   }
 
@@ -100,6 +100,7 @@ namespace taut
     n_cuts = std::stable_partition(constraints.begin(), end_of_fixed,
                                    [](const ConstraintData &c) { return c.is_cut(); }) -
              constraints.begin();
+    n_all_cuts = n_cuts;
     first_common = n_cuts;
     number_contacts();
     first_segments.assign(1, 0);

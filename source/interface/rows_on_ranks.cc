@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -35,17 +36,18 @@ namespace taut
     constraints = std::move(rows);
   }
 
-  void Constraints::distribute(const Distributed which)
+  void Constraints::distribute(const bool are_distributed)
   {
     if (is_chosen)
       throw std::logic_error("constraints are distributed once");
     is_chosen = true;
-    if (which == which_are_distributed)
+    if (!are_distributed)
+    {
+      if (shared_rows)
+        gather_cuts();
       return;
-    if (which == Distributed::nothing)
-      return gather_cuts();
-    which_are_distributed = which;
-    const std::size_t n = which == Distributed::cuts ? n_cuts : first_turning;
+    }
+    const std::size_t n = first_turning;
     // A row that all ranks have, and none has terms of, is that of the root.
     std::vector<double> n_holders;
     for (std::size_t i = n_cuts; i < n; ++i)
@@ -80,7 +82,6 @@ namespace taut
         cuts[number].name = known[number].name;
     replace_first(n_cuts, std::move(cuts));
     shared_rows = nullptr;
-    which_are_distributed = Distributed::nothing;
     number_contacts();
     arrange();
   }
@@ -101,13 +102,13 @@ namespace taut
 
   void Constraints::add_up(std::vector<double> &values) const
   {
-    if (which_are_distributed == Distributed::fixed)
+    if (shared_rows)
       shared_rows->sum(values);
   }
 
   double Constraints::added_up(double value) const
   {
-    if (which_are_distributed == Distributed::fixed)
+    if (shared_rows)
       structure.communicator().sum(&value, 1);
     return value;
   }
@@ -115,12 +116,19 @@ namespace taut
   std::vector<double> Constraints::of_links(const std::vector<double> &values,
                                             const std::size_t n) const
   {
-    std::vector<double> result(n, 0.);
-    for (std::size_t i = 0; i < size(); ++i)
-      if (constraints[i].link < n && counts(i))
-        result[constraints[i].link] = values[i];
-    add_up(result);
+    std::vector<double> result;
+    copy_of_links(values, n, result);
     return result;
+  }
+
+  void Constraints::copy_of_links(const std::vector<double> &values, const std::size_t n,
+                                  std::vector<double> &to) const
+  {
+    to.assign(n, 0.);
+    for (const std::size_t i : rows_but_cuts())
+      if (constraints[i].link < n && counts(i))
+        to[constraints[i].link] = values[i];
+    add_up(to);
   }
 
   std::vector<double> Constraints::of_contact(const std::vector<double> &values,
@@ -261,5 +269,72 @@ namespace taut
       return i;
     const double found = shared_rows->max(i < size() ? static_cast<double>(number(i)) : -1.);
     return found < 0. ? no_link : static_cast<std::size_t>(found);
+  }
+
+  namespace
+  {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+
+    /// The lowest of the numbers is the largest of their opposites.
+    std::size_t lowest(const double opposite)
+    {
+      return opposite == none ? no_link : static_cast<std::size_t>(-opposite);
+    }
+  } // namespace
+
+  std::size_t Constraints::number_of_first(const std::size_t i) const
+  {
+    if (!shared_rows)
+      return i < size() ? i : no_link;
+    return lowest(shared_rows->max(i < size() ? -static_cast<double>(number(i)) : none));
+  }
+
+  std::vector<std::size_t> Constraints::numbers_of(const std::vector<std::size_t> &rows) const
+  {
+    if (!shared_rows)
+      return rows;
+    std::vector<std::size_t> own;
+    for (const std::size_t i : rows)
+      if (is_own(i))
+        own.push_back(number(i));
+    std::vector<std::size_t> result, of_rank;
+    for (const std::string &text : structure.communicator().gather(
+             archived([&](OutputArchive &archive) { archive << own; })))
+    {
+      unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
+      result.insert(result.end(), of_rank.begin(), of_rank.end());
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  std::vector<std::size_t>
+  Constraints::numbers_of_largest(std::vector<double> &values,
+                                  const std::vector<std::size_t> &rows) const
+  {
+    if (!shared_rows)
+      return rows;
+    const std::vector<double> own = values;
+    shared_rows->max(values);
+    std::vector<double> opposites(rows.size(), none);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k] < size() && !(own[k] < values[k]))
+        opposites[k] = -static_cast<double>(number(rows[k]));
+    shared_rows->max(opposites);
+    std::vector<std::size_t> result;
+    for (const double opposite : opposites)
+      result.push_back(lowest(opposite));
+    return result;
+  }
+
+  std::vector<double> Constraints::of_rows(const std::vector<double> &values,
+                                           const std::vector<std::size_t> &numbers) const
+  {
+    std::vector<double> result(numbers.size(), 0.);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      if (const std::size_t i = index(numbers[k]); i < size() && counts(i))
+        result[k] = values[i];
+    add_up(result);
+    return result;
   }
 } // namespace taut

@@ -140,8 +140,7 @@ namespace taut
     bool is_nonlinear = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
       is_nonlinear = is_nonlinear || !structure[k].is_linear();
-    const bool has_cuts = constraints.common_rows().size() < constraints.n_of_all(),
-               has_rows = has_cuts || (is_at_rest && !constraints.fixed_rows().empty());
+    const bool has_rows = constraints.n_of_all() > constraints.varying_rows().size();
     if (processes.size() == 1 || !has_rows || !constraints.turning_rows().empty() ||
         processes.any(is_nonlinear))
       return false;

@@ -161,9 +161,8 @@ namespace taut
     const SceneBodies structure(lighter);
     const Constraints constraints = scene_constraints(lighter, structure);
     const ContactResolution resolution(structure, constraints, parameters, step, step, 0.);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (resolution.acts_as_rigid(i))
-        return;
+    if (resolution.first_rigid() != no_link)
+      return;
     scene = std::move(lighter);
   }
 } // namespace taut

@@ -462,10 +462,6 @@ namespace taut
   void choose_rows(Constraints &constraints, const InterfaceParameters &parameters,
                    const SceneBodies &bodies, const bool is_at_rest)
   {
-    using Distributed = Constraints::Distributed;
-    constraints.distribute(!suits_distributed_rows(parameters, bodies, constraints, is_at_rest)
-                               ? Distributed::nothing
-                           : is_at_rest ? Distributed::fixed
-                                        : Distributed::cuts);
+    constraints.distribute(suits_distributed_rows(parameters, bodies, constraints, is_at_rest));
   }
 } // namespace taut

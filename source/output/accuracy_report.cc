@@ -320,7 +320,7 @@ namespace taut
       return;
     MotionDifference rough = longer->most;
     rough.scale(1. / (ratio_of_steps - 1.));
-    rough.row_at_end = -1; // impacts of longer steps are off by more than those of the run
+    rough.name_at_end.clear(); // impacts of longer steps are off by more than those of the run
     found = rough;
     too_long = !(rough.over_bounds() <= good);
     is_rough = true;
@@ -335,11 +335,11 @@ namespace taut
   /// A contact so near the end that its whole impulse hangs on the time when it begins.
   std::vector<Warning> StepAccuracy::warning_of_end() const
   {
-    if (!found || found->row_at_end >= run.motion.links().size() ||
+    if (!found || found->name_at_end.empty() ||
         found->impulse_at_end <= MotionDifference::impulse_bound)
       return {};
     return {{"end",
-             to_text("the impulse of '", run.motion.links()[found->row_at_end].name,
+             to_text("the impulse of '", found->name_at_end,
                      "' until the end of the run is off by ", percent(found->impulse_at_end),
                      " of the largest, as it is early or late there. Take a later Time/End"),
              found->impulse_at_end, MotionDifference::impulse_bound, "1", run.motion.state().time}};
@@ -359,7 +359,7 @@ namespace taut
       out << "the place of " << body << " is off by " << percent(found->place)
           << " of the largest motion at t = " << found->time << " s";
     else if (found->is_impulse())
-      out << "the impulse of '" << run.motion.links()[found->row].name << "' is off by "
+      out << "the impulse of '" << found->name << "' is off by "
           << percent(found->impulse) << " of the largest";
     else
       out << "the energy of what is connected with " << body << " is off by "

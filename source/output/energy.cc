@@ -342,13 +342,13 @@ namespace taut
     Balance share;
     add_bodies(step, share);
     add_moving_rows(step, share);
-    const Constraints::Rows common = step.constraints.common_rows();
-    for (std::size_t i = 0; i < *common.begin(); ++i)
+    for (std::size_t i = 0; i < step.constraints.size(); ++i)
       if (step.constraints.is_own(i))
-        add_row(step, i, share); // a cut, as in motion no other row is distributed
-    double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
-                     share.contacts, share.damping, share.algorithmic};
-    step.structure.communicator().sum(sums, 7);
+        add_row(step, i, share);
+    double sums[] = {share.kinetic,  share.strain,  share.loads,       share.supports,
+                     share.contacts, share.damping, share.algorithmic, share.links,
+                     share.link_dampers};
+    step.structure.communicator().sum(sums, std::size(sums));
     total.algorithmic += sums[6] - (sums[0] - total.kinetic) + step.report.impulse_work;
     total.kinetic = sums[0];
     total.strain = sums[1];
@@ -356,9 +356,8 @@ namespace taut
     total.supports += sums[3];
     total.contacts += sums[4];
     total.damping += sums[5];
-    total.links = 0.;
-    for (const std::size_t i : common)
-      add_row(step, i, total);
+    total.links = sums[7];
+    total.link_dampers += sums[8];
     keep(step);
     if (step.state.time >= next - 1e-9 * interval)
       write(step.state.time);

@@ -183,15 +183,12 @@ namespace taut
     move_ends(step);
     const std::vector<float> of_wires = displacements(wires, step),
                              of_ends = displacements(ends, step);
-    const std::size_t n_links = link_of_end.empty() ? 0 : step.scene.links.size();
-    const std::vector<double> forces = step.constraints.of_links(step.state.multiplier, n_links),
-                              gaps = step.constraints.of_links(step.state.distance, n_links);
     if (wire_file)
       wire_file->set(wire_displacement, of_wires);
     if (link_file)
     {
       link_file->set(link_displacement, of_ends);
-      set_links(forces, gaps);
+      set_links(step.links);
     }
     const auto write_files = [&]
     {
@@ -267,15 +264,14 @@ namespace taut
     }
   }
 
-  void Fields::set_links(const std::vector<double> &of_links,
-                         const std::vector<double> &gaps_of_links)
+  void Fields::set_links(const LinkValues &links)
   {
     std::vector<float> forces, gaps, opened;
     for (const std::size_t link : link_of_end)
     {
-      forces.push_back(static_cast<float>(of_links[link]));
-      gaps.push_back(static_cast<float>(gaps_of_links[link]));
-      opened.push_back(of_links[link] == 0. ? 1.f : 0.f);
+      forces.push_back(static_cast<float>(links.force[link]));
+      gaps.push_back(static_cast<float>(links.gap[link]));
+      opened.push_back(links.force[link] == 0. ? 1.f : 0.f);
     }
     link_file->set(VtuFile::positions, values_of(ends.places));
     link_file->set(force, forces);

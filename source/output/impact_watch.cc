@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
-#include <taut/base/archive.h>
+#include "time/stored_row_records.h"
 #include <taut/output/impact_watch.h>
 
 #include <algorithm>
@@ -36,25 +36,25 @@ namespace taut
   {
     std::vector<std::size_t> result;
     double strongest = 0.;
-    const Constraints::Rows common = step.constraints.common_rows();
-    for (std::size_t r = 0; r < rate.size(); ++r)
+    for (const std::size_t i : step.constraints.rows_but_cuts())
     {
-      const std::size_t i = common[r];
       const ConstraintData &constraint = step.constraints[i];
       const double N = step.state.multiplier[i];
-      if (!constraint.cone.may_open() || !constraint.spring.is_rigid() || !(N > growth * force[r]))
+      if (!constraint.cone.may_open() || !constraint.spring.is_rigid() || !(N > growth * force[i]))
         continue;
       result.push_back(i);
-      if (rate[r] < -rest * largest[constraint.rotational])
+      if (rate[i] < -rest * largest[constraint.rotational])
         strongest = std::max(strongest, N);
     }
+    strongest = step.constraints.max(strongest);
     const auto is_none = [&](const std::size_t i)
     { return !(strongest > 0. && step.state.multiplier[i] > rounding * strongest); };
     result.erase(std::remove_if(result.begin(), result.end(), is_none), result.end());
     return result;
   }
 
-  /// Those of @p constraints that share a body with another one. Called by all ranks together.
+  /// Those of @p constraints, of this rank, that share a body with another one of any rank. Called
+  /// by all ranks together.
   std::vector<std::size_t> ImpactWatch::sharing(const StepView &step,
                                                 const std::vector<std::size_t> &constraints) const
   {
@@ -74,7 +74,7 @@ namespace taut
       met.erase(std::unique(met.begin(), met.end()), met.end());
       std::for_each(met.begin(), met.end(), act);
     };
-    std::vector<double> n(first.back(), 0.), shares(constraints.size(), 0.);
+    std::vector<double> n(first.back(), 0.), shares(step.constraints.size(), 0.);
     for (const std::size_t i : constraints)
       visit(i, [&](const std::size_t place) { n[place] += 1.; });
     processes.sum(n);
@@ -83,13 +83,13 @@ namespace taut
             [&](const std::size_t place)
             {
               if (n[place] > 1.)
-                shares[j] = 1.;
+                shares[constraints[j]] = 1.;
             });
-    processes.sum(shares);
+    step.constraints.sum(shares);
     std::vector<std::size_t> result;
-    for (std::size_t j = 0; j < constraints.size(); ++j)
-      if (shares[j] > 0.)
-        result.push_back(constraints[j]);
+    for (const std::size_t i : constraints)
+      if (shares[i] > 0.)
+        result.push_back(i);
     return result;
   }
 
@@ -98,47 +98,59 @@ namespace taut
     const State &state = step.state;
     const bool is_start = !is_running;
     is_running = true;
+    rows = &step.constraints;
     if (!is_start && !(step.report.method.c.restitution > 0.))
       return;
     if (!is_start)
     {
       const std::vector<std::size_t> all = struck(step);
+      const bool some = step.constraints.shared() ? step.constraints.any(!all.empty())
+                                                  : all.size() > 1;
       const std::vector<std::size_t> together =
-          all.size() > 1 ? sharing(step, all) : std::vector<std::size_t>();
+          step.constraints.numbers_of(some ? sharing(step, all) : std::vector<std::size_t>());
       if (!together.empty() && n_steps++ == 0)
       {
         first = state.time;
-        std::vector<std::size_t> numbers;
-        for (const std::size_t i : together)
-          numbers.push_back(step.constraints.number(i));
-        names = step.constraints.names(numbers);
+        names = step.constraints.names(together);
       }
     }
-    const Constraints::Rows common = step.constraints.common_rows();
-    const auto of_common = [&](const std::vector<double> &all, std::vector<double> &result)
-    { result.assign(all.begin() + static_cast<std::ptrdiff_t>(*common.begin()), all.end()); };
-    of_common(is_start ? step.constraints.motions(state.V) : state.rate, rate);
-    of_common(state.multiplier, force);
-    for (std::size_t r = 0; r < rate.size(); ++r)
+    rate = is_start ? step.constraints.motions(state.V) : state.rate;
+    force = state.multiplier;
+    for (const std::size_t i : step.constraints.rows_but_cuts())
     {
-      double &of_kind = largest[step.constraints[common[r]].rotational];
-      of_kind = std::max(of_kind, std::fabs(rate[r]));
+      double &of_kind = largest[step.constraints[i].rotational];
+      of_kind = std::max(of_kind, std::fabs(rate[i]));
     }
+    for (double &of_kind : largest)
+      of_kind = step.constraints.max(of_kind);
   }
 
   template <typename Archive>
   void ImpactWatch::store(Archive &archive)
   {
-    archive &is_running &rate &force &largest[0] & largest[1] & n_steps &first &names;
+    std::vector<std::pair<double, double>> of_rows(rows->size());
+    for (std::size_t i = 0; i < rate.size(); ++i)
+      of_rows[i] = {rate[i], force[i]};
+    store_of_rows(archive, *rows, of_rows);
+    rate.clear();
+    force.clear();
+    for (const auto &[of_rate, of_force] : of_rows)
+    {
+      rate.push_back(of_rate);
+      force.push_back(of_force);
+    }
+    archive &is_running &largest[0] & largest[1] & n_steps &first &names;
   }
 
   void ImpactWatch::save(OutputArchive &archive)
   {
-    store(archive);
+    if (rows != nullptr) // after a step
+      store(archive);
   }
 
-  void ImpactWatch::resume(InputArchive &archive, const StepView &)
+  void ImpactWatch::resume(InputArchive &archive, const StepView &step)
   {
+    rows = &step.constraints;
     store(archive);
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "output/distance_to_range.h"
 
-#include "base/gather_entries.h"
 #include "output/impulse_of_step.h"
 #include "output/impulse_record.h"
+#include "time/stored_row_records.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -48,7 +48,7 @@ namespace taut
       {
         const bool is_lumped = structure[term.substructure].is_lumped();
         for (std::size_t e = 0; e < term.form.index.size(); ++e)
-          acts_on.add(i,
+          acts_on.add(constraints.number(rows[i]),
                       structure.number(term.substructure) * stride +
                           (is_lumped ? term.form.index[e] : 0),
                       is_lumped ? part * term.form.value[e] : on_elements);
@@ -61,10 +61,11 @@ namespace taut
         for (const Term &term : constraints[rows[i]].terms)
           add(i, term, 1.);
       }
-      gather(structure.communicator(), acts_on);
+      constraints.sum_entries(acts_on, structure.all_bodies().size() * stride);
       std::vector<std::map<std::size_t, double>> forms(rows.size());
+      const std::size_t first = rows.empty() ? 0 : rows.front();
       for (std::size_t e = 0; e < acts_on.size(); ++e)
-        forms[acts_on.row[e]][acts_on.column[e]] += acts_on.value[e];
+        forms[constraints.index(acts_on.row[e]) - first][acts_on.column[e]] += acts_on.value[e];
       std::vector<Ends> ends(rows.size());
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
@@ -100,14 +101,13 @@ namespace taut
 
   ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
                                const ConnectedBodies &groups, const State &start)
-      : n_groups(groups.n_groups()), times(1, start.time)
+      : constraints(constraints), n_groups(groups.n_groups()), times(1, start.time)
   {
-    for (const std::size_t i : constraints.common_rows())
-      if (!constraints[i].is_cut())
-      {
-        rows.push_back(i);
-        multiplier.push_back(start.multiplier[i]);
-      }
+    for (const std::size_t i : constraints.rows_but_cuts())
+    {
+      rows.push_back(i);
+      multiplier.push_back(start.multiplier[i]);
+    }
     const std::vector<Ends> ends = lumped_ends(structure, constraints, rows);
     std::map<std::pair<std::vector<std::size_t>, bool>, std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < ends.size(); ++i)
@@ -131,23 +131,29 @@ namespace taut
         item_of.push_back(item_of[first[i]]);
         continue;
       }
-      item_of.push_back(items.size());
+      // Those that share an impulse act on the same bodies, and are counted by the same rank.
+      item_of.push_back(constraints.counts(rows[i]) ? items.size() : no_link);
+      if (item_of.back() == no_link)
+        continue;
       items.push_back({rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational,
                        constraints[rows[i]].cone.may_open()});
     }
-    most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, items.size()), fewest_ends,
-                           most_ends_of_few) /
-                2 * 2;
+    const auto n_of_all =
+        static_cast<std::size_t>(constraints.added_up(static_cast<double>(items.size())));
+    most_ends =
+        std::clamp(most_numbers / std::max<std::size_t>(1, n_of_all), fewest_ends, most_ends_of_few) /
+        2 * 2;
     impulse.assign(items.size(), 0.);
     impulses.reserve(std::min((most_ends + 1) * items.size(), most_numbers));
     impulses = impulse;
   }
 
-  void ImpulseRecord::record(const Constraints &constraints, const State &state,
-                             const StepReport &report)
+  void ImpulseRecord::record(const State &state, const StepReport &report)
   {
     for (std::size_t i = 0; i < multiplier.size(); ++i)
     {
+      if (item_of[i] == no_link)
+        continue;
       const double N = state.multiplier[rows[i]];
       impulse[item_of[i]] +=
           impulse_of_step(constraints, report, rows[i], multiplier[i], N, state.last_step);
@@ -169,6 +175,7 @@ namespace taut
     std::vector<double> result(2 * n_groups, 0.);
     for (std::size_t i = 0; i < items.size(); ++i)
       result[items[i].group] += std::fabs(impulse[i]);
+    constraints.add_up(result);
     return result;
   }
 
@@ -214,9 +221,10 @@ namespace taut
                                                       const double shift,
                                                       const double rounding) const
   {
-    Difference result;
     if (other.times.size() < 2)
-      return result;
+      return {};
+    double most = 0., most_at_end = 0.;
+    std::size_t row = no_link, row_at_end = no_link;
     const std::size_t n = items.size(), n_times = times.size();
     // The ends of steps, and the times that are a bit earlier and later than each of them.
     std::vector<double> shifted[2] = {times, times};
@@ -236,6 +244,9 @@ namespace taut
         of_others = std::max(of_others, std::fabs(other.at(same[k], i)));
         of_own = std::max(of_own, std::fabs(impulses[k * n + i]));
       }
+    if (constraints.shared())
+      for (std::vector<double> *const of_all : {&largest, &own})
+        constraints.communicator().max(*of_all);
     for (std::size_t q = 0; q < own.size(); ++q)
       if (own[q] > much_smaller * largest[q])
         largest[q] = own[q];
@@ -260,12 +271,75 @@ namespace taut
         if (last + 1 == n_both && k > 0)
           off = std::min(
               off, distance_to_range(other.at(same[k], i), std::min(first, k - 1), k, of_own));
-        if (const double d = ratio(off, largest[q]); d > result.largest || d != d)
-          std::tie(result.largest, result.row) = std::pair(d, items[i].row);
+        if (const double d = ratio(off, largest[q]); d > most || d != d)
+          std::tie(most, row) = std::pair(d, items[i].row);
         const double at_end = ratio(std::fabs(of_own(k) - other.at(same[k], i)), largest[q]);
-        if (k + 1 == n_both && items[i].may_open && at_end > result.at_end)
-          std::tie(result.at_end, result.row_at_end) = std::pair(at_end, items[i].row);
+        if (k + 1 == n_both && items[i].may_open && at_end > most_at_end)
+          std::tie(most_at_end, row_at_end) = std::pair(at_end, items[i].row);
       }
-    return result;
+    return named(most, row, most_at_end, row_at_end);
   }
+
+  /// The differences of all ranks.
+  ImpulseRecord::Difference ImpulseRecord::named(const double largest, const std::size_t row,
+                                                 const double at_end,
+                                                 const std::size_t row_at_end) const
+  {
+    std::vector<double> differences;
+    for (const double own : {largest, at_end}) // what is no number is largest of all
+      differences.push_back(own == own ? own : std::numeric_limits<double>::infinity());
+    const std::vector<std::size_t> numbers =
+        constraints.numbers_of_largest(differences, {row, row_at_end});
+    const auto name = [&](const std::size_t number)
+    {
+      const std::vector<Constraints::Label> labels =
+          number == no_link ? std::vector<Constraints::Label>() : constraints.labels({number});
+      return labels.empty() ? std::string() : labels.front().name;
+    };
+    return {differences[0], differences[1], name(numbers[0]), name(numbers[1])};
+  }
+
+  /// What a row has: its multiplier, and the impulses of the item of which it is the first.
+  struct ImpulseRecord::Stored
+  {
+    double multiplier = 0., impulse = 0.;
+    std::vector<double> impulses = {};
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &multiplier &impulse &impulses;
+    }
+  };
+
+  template <typename Archive>
+  void ImpulseRecord::store(Archive &archive)
+  {
+    const std::size_t n = items.size();
+    std::vector<Stored> of_rows(constraints.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      of_rows[rows[r]].multiplier = multiplier[r];
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      Stored &first = of_rows[items[i].row];
+      first.impulse = impulse[i];
+      for (std::size_t at = i; at < impulses.size(); at += n)
+        first.impulses.push_back(impulses[at]);
+    }
+    store_of_rows(archive, constraints, of_rows);
+    archive &times &stride &n_steps;
+    impulses.resize(n * times.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      multiplier[r] = of_rows[rows[r]].multiplier;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const Stored &first = of_rows[items[i].row];
+      impulse[i] = first.impulse;
+      for (std::size_t k = 0; k < first.impulses.size(); ++k)
+        impulses[k * n + i] = first.impulses[k];
+    }
+  }
+
+  template void ImpulseRecord::store(OutputArchive &);
+  template void ImpulseRecord::store(InputArchive &);
 } // namespace taut

@@ -2,11 +2,13 @@
 #ifndef taut_impulse_record_h
 #define taut_impulse_record_h
 
+#include <taut/base/archive_forward.h>
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/state.h>
 #include <taut/time/step_report.h>
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,26 +23,30 @@ namespace taut
    * Three or more rigid unilateral constraints on the same DoFs of lumped bodies may share an
    * impulse in any way if their linear forms depend on each other, as the four legs of a box do.
    * Their sum counts.
+   *
+   * A rank records the constraints that it counts. The constructor, sizes(), difference() and
+   * store() are called by all ranks together, and say what all ranks recorded.
    */
   class ImpulseRecord
   {
   public:
-    /// Called by all ranks together.
+    /// @p constraints are kept by reference.
     ImpulseRecord(const Structure &structure, const Constraints &constraints,
                   const ConnectedBodies &groups, const State &start);
 
     /// Records an accepted step.
-    void record(const Constraints &constraints, const State &state, const StepReport &report);
+    void record(const State &state, const StepReport &report);
 
     /// Sums of the sizes of the impulses so far, by group and kind [N s, N m s].
     std::vector<double> sizes() const;
 
     /// Relative differences, the largest and that of unilateral constraints at the end of the
-    /// comparison, where nothing may be early or late, and their constraints; -1: nothing differs.
+    /// comparison, where nothing may be early or late, and the names of their constraints; empty:
+    /// nothing differs.
     struct Difference
     {
       double largest = 0., at_end = 0.; ///< [1]
-      std::size_t row = -1, row_at_end = -1;
+      std::string name, name_at_end;
     };
 
     /**
@@ -54,12 +60,11 @@ namespace taut
 
     /// Saves or loads.
     template <typename Archive>
-    void store(Archive &archive)
-    {
-      archive &impulse &multiplier &times &impulses &stride &n_steps;
-    }
+    void store(Archive &archive);
 
   private:
+    struct Stored;
+    Difference named(double largest, std::size_t row, double at_end, std::size_t row_at_end) const;
     void keep_every_second_end();
 
     /// A time between two recorded ends.
@@ -80,10 +85,11 @@ namespace taut
       std::size_t group; ///< 2 g, or 2 g + 1 of rotational ones
       bool may_open;
     };
+    const Constraints &constraints;
     const std::size_t n_groups;
     std::vector<std::size_t> rows; ///< all but cuts
-    std::vector<Item> items;
-    std::vector<std::size_t> item_of; ///< of each of the rows
+    std::vector<Item> items;       ///< that this rank counts
+    std::vector<std::size_t> item_of; ///< of each of the rows; no_link: of another rank
     std::size_t most_ends;            ///< that are kept; even
 
     std::vector<double> impulse;    ///< of the items so far [N s, N m s]

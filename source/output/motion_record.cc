@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace taut
 {
@@ -177,14 +176,13 @@ namespace taut
       body.stiffness().vmult_add(.5, dU.data(), work.data());
       energy[1] += dot_in_lanes(dU, work) - dot_in_lanes(dU, state.KU[k]);
     }
-    if (structure.communicator().is_root())
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (!constraints[i].spring.is_rigid())
-        {
-          const RowStates::Spring &spring = state.springs[i];
-          of_groups[groups.of_constraint(i)][1] +=
-              constraints[i].spring.energy(at_end ? spring.u : spring.u - spring.du);
-        }
+    for (const std::size_t i : constraints.rows_but_cuts())
+      if (!constraints[i].spring.is_rigid() && constraints.is_own(i))
+      {
+        const RowStates::Spring &spring = state.springs[i];
+        of_groups[groups.of_constraint(i)][1] +=
+            constraints[i].spring.energy(at_end ? spring.u : spring.u - spring.du);
+      }
   }
 
   /// Energies at a part of the last step, of which they are the first or not.
@@ -204,7 +202,7 @@ namespace taut
 
   void MotionRecord::record(const State &state, const StepReport &report)
   {
-    impulses.record(constraints, state, report);
+    impulses.record(state, report);
     add_speeds(state);
     const double early = rounding_of_times * state.last_step;
     for (bool is_first = true; n_recorded < n && time_of(n_recorded) <= state.time + early;
@@ -448,9 +446,10 @@ namespace taut
       MotionDifference result = of_places;
       const ImpulseRecord::Difference of_impulses = impulses.difference(
           other.impulses, size.impulse, size.late, part, rounding_of_times * interval);
-      std::tie(result.impulse, result.row) = std::pair(of_impulses.largest, of_impulses.row);
-      std::tie(result.impulse_at_end, result.row_at_end) =
-          std::pair(of_impulses.at_end, of_impulses.row_at_end);
+      result.impulse = of_impulses.largest;
+      result.name = of_impulses.name;
+      result.impulse_at_end = of_impulses.at_end;
+      result.name_at_end = of_impulses.name_at_end;
       compare_energies(own_energies, others, size, part, result);
       return result;
     };

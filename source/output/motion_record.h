@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -32,12 +33,12 @@ namespace taut
 
     std::size_t body = 0; ///< of Structure::all_bodies(), with the largest difference of places
     double time = 0.;     ///< of this difference [s]
-    std::size_t row = -1; ///< constraint with the largest difference of impulses; -1: none
+    std::string name; ///< of the constraint with the largest difference of impulses; empty: none
 
     /// The largest difference of impulses at the end, where an impact that is early or late counts,
-    /// and its constraint; -1: none.
+    /// and the name of its constraint; empty: none.
     double impulse_at_end = 0.; ///< [1]
-    std::size_t row_at_end = -1;
+    std::string name_at_end;
     bool is_place() const;   ///< the place exceeds its bound most
     bool is_impulse() const; ///< the impulse exceeds its bound most
   };

@@ -27,12 +27,9 @@ namespace taut
   void RestFigures::record(const StepView &step)
   {
     links.clear();
-    const std::vector<double> forces = step.constraints.of_links(step.state.multiplier,
-                                                                 scene.links.size()),
-                              gaps = step.constraints.of_links(step.state.distance,
-                                                               scene.links.size());
     for (std::size_t l = 0; l < scene.links.size(); ++l)
-      links.push_back({scene.links[l].name, forces[l], gaps[l], scene.links[l].rotational});
+      links.push_back({scene.links[l].name, step.links.force[l], step.links.gap[l],
+                       scene.links[l].rotational});
     const std::vector<Structure::Body> &all = step.structure.all_bodies();
     std::vector<double> of_bodies(all.size(), 0.);
     for (std::size_t k = 0; k < step.structure.size(); ++k)

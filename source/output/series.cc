@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "output/fixed_links.h"
 #include "output/reactions.h"
 #include <taut/base/archive.h>
 #include <taut/output/series.h>
@@ -18,9 +19,12 @@ namespace taut
       *table = IntervalTable(constraints ? interval : 0.);
     for (IntervalTable *table : {&links, &supports})
       *table = IntervalTable(link_interval);
-    for (std::size_t i = 0; constraints && i < constraints->size() && !constraints->slides(i); ++i)
-      if ((*constraints)[i].is_link())
-        add_link((*constraints)[i]);
+    for (const FixedLink &link :
+         constraints ? fixed_links(scene, *constraints) : std::vector<FixedLink>())
+    {
+      add_link(link.name, link.may_open, link.rotates, false);
+      fixed.emplace_back(link.link, link.may_open);
+    }
     if (constraints)
       contacts = sliding_contacts(scene, *constraints);
     for (const SlidingContact &contact : contacts)
@@ -28,7 +32,10 @@ namespace taut
       if (contact.is_strip)
         add_strip(contact.name);
       for (const std::size_t link : contact.links)
-        add_link((*constraints)[constraints->index_of_link(link)]);
+      {
+        const ConstraintData &row = (*constraints)[constraints->index_of_link(link)];
+        add_link(row.name, row.cone.may_open(), row.rotational, true);
+      }
     }
     for (const SupportPoint &point : support_points(scene))
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
@@ -55,20 +62,19 @@ namespace taut
           std::make_unique<TableFile>(format, run.folder + "/certificate", columns, run.resumes);
   }
 
-  void Series::add_link(const ConstraintData &constraint)
+  void Series::add_link(const std::string &name, const bool may_open, const bool rotates,
+                        const bool slides)
   {
-    const bool slides = constraint.kind() == Geometry::Kind::sliding;
     IntervalTable &table = slides ? sliding : links;
-    table.begin_item(constraint.name);
+    table.begin_item(name);
     if (slides)
-      table.add_value(constraint.name + " position", "m");
-    table.add_quantity(constraint.name + (constraint.rotational ? " moment" : " force"),
-                       constraint.rotational ? "N m" : "N");
-    const std::string gap = constraint.name + " gap", unit = constraint.rotational ? "rad" : "m";
-    if (constraint.cone.may_open())
+      table.add_value(name + " position", "m");
+    table.add_quantity(name + (rotates ? " moment" : " force"), rotates ? "N m" : "N");
+    const std::string gap = name + " gap", unit = rotates ? "rad" : "m";
+    if (may_open)
     {
       table.add_quantity(gap, unit);
-      table.add_state(constraint.name);
+      table.add_state(name);
     }
     else
       table.add_value(gap, unit);
@@ -82,12 +88,12 @@ namespace taut
     sliding.add_state(name);
   }
 
-  void Series::record_link(const StepView &step, const std::size_t row)
+  void Series::record_link(const StepView &step, const std::size_t link, const bool may_open)
   {
-    values.push_back(step.state.multiplier[row]);
-    values.push_back(step.state.distance[row]);
-    if (step.constraints[row].cone.may_open())
-      values.push_back(step.state.multiplier[row] != 0.);
+    values.push_back(step.links.force[link]);
+    values.push_back(step.links.gap[link]);
+    if (may_open)
+      values.push_back(step.links.force[link] != 0.);
   }
 
   /// The strip touches where it touches one of its wires.
@@ -109,9 +115,8 @@ namespace taut
   void Series::record_links(const StepView &step)
   {
     values.clear();
-    for (std::size_t i = 0; i < step.constraints.size() && !step.constraints.slides(i); ++i)
-      if (step.constraints[i].is_link())
-        record_link(step, i);
+    for (const auto &[link, may_open] : fixed)
+      record_link(step, link, may_open);
     if (!values.empty())
       links.record(step.state.time, values);
   }
@@ -127,7 +132,7 @@ namespace taut
       {
         const std::size_t row = step.constraints.index_of_link(link);
         values.push_back(step.constraints.position(row, step.state.time));
-        record_link(step, row);
+        record_link(step, link, step.constraints[row].cone.may_open());
       }
     }
     if (!values.empty())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/text.h"
+#include "output/fixed_links.h"
 #include "output/impulse_of_step.h"
 #include "output/signals.h"
 #include <taut/base/archive.h>
@@ -33,18 +34,17 @@ namespace taut
     sums = contact_sums(parameters.sums, sliding_contacts(scene, rows));
     links.reserve(scene.links.size());
     index_of_link.assign(scene.links.size(), no_link);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!rows.slides(i) && rows[i].is_link())
-      {
-        if (rows[i].link >= index_of_link.size())
-          index_of_link.resize(rows[i].link + 1, no_link);
-        index_of_link[rows[i].link] = links.size();
-        links.push_back({rows[i].name, rows[i].cone.may_open(), rows[i].rotational});
-        LinkQuantities &link = links.back();
-        link.is_dropper = rows[i].link < scene.links.size() &&
-                          scene.links[rows[i].link].kind == LinkKind::dropper;
-        link.dropper.keeps_reversals = link.is_dropper && parameters.has_table("cycles");
-      }
+    for (const FixedLink &of : fixed_links(scene, rows))
+    {
+      if (of.link >= index_of_link.size())
+        index_of_link.resize(of.link + 1, no_link);
+      index_of_link[of.link] = links.size();
+      links.push_back({of.link, of.name, of.may_open, of.rotates});
+      LinkQuantities &link = links.back();
+      link.is_dropper =
+          of.link < scene.links.size() && scene.links[of.link].kind == LinkKind::dropper;
+      link.dropper.keeps_reversals = link.is_dropper && parameters.has_table("cycles");
+    }
     for (const Probe &probe : scene.probes)
       probes.push_back({probe.name, probe.unit()});
   }
@@ -56,24 +56,36 @@ namespace taut
 
   void Statistics::record_links(const StepView &step, const double dt)
   {
-    std::size_t n = 0;
+    // Of each link: impulse in the step, mean force, and largest impulse.
+    constexpr std::size_t n_values = 3;
+    of_links.assign(n_values * index_of_link.size(), 0.);
     for (std::size_t i = 0; i < rows->size() && !rows->slides(i); ++i)
     {
-      if (!(*rows)[i].is_link())
+      if (!(*rows)[i].is_link() || !rows->counts(i))
         continue;
-      LinkQuantities &link = links[n++];
-      const double force = step.state.multiplier[i];
+      const std::size_t link = (*rows)[i].link;
+      double *const values = of_links.data() + n_values * link;
+      values[0] = impulse_of_step(*rows, step.report, i, links[index_of_link[link]].last_force,
+                                  step.state.multiplier[i], dt);
+      values[1] = step.measures.mean_force(i);
+      values[2] = step.measures.largest_impulse(i);
+    }
+    rows->add_up(of_links);
+    for (LinkQuantities &link : links)
+    {
+      const double force = step.links.force[link.link];
+      const double *const values = of_links.data() + n_values * link.link;
       (force == 0. ? link.open_time : link.closed_time) += dt;
-      link.impulse += impulse_of_step(*rows, step.report, i, link.last_force, force, dt);
+      link.impulse += values[0];
       link.last_force = force;
       if (link.is_dropper && dt == 0.)
         link.dropper.start(force);
       else if (link.is_dropper)
         link.dropper.add(force, dt);
-      const double mean = link.unilateral ? step.measures.mean_force(i) : force;
+      const double mean = link.unilateral ? values[1] : force;
       if (std::fabs(mean) > std::fabs(link.largest_force))
         link.largest_force = mean;
-      link.largest_impulse = step.measures.largest_impulse(i);
+      link.largest_impulse = values[2];
     }
   }
 

@@ -160,14 +160,14 @@ namespace taut
           {"steps", all.n_steps},
           {"iterations_per_step", all.n_steps > 0 ? double(all.n_iterations) / all.n_steps : 0.},
           {"fallbacks", all.n_fallbacks}};
-      if (!all.measures || all.rows->size() == 0)
+      if (!all.measures || all.rows->n_of_all() == 0)
         return entry;
       const ContactMeasures::Summary s = all.measures->summary();
       const auto measure = [&](const double value, const std::string &unit, const std::size_t row)
       {
         json entry = json_quantity(value, unit);
-        if (row < all.rows->size())
-          entry["largest_at"] = (*all.rows)[row].name;
+        if (row != no_link)
+          entry["largest_at"] = all.measures->label(row).name;
         return entry;
       };
       entry["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);

@@ -155,6 +155,7 @@ namespace taut
                       " observers and this run " + std::to_string(observers.size()) +
                       ": resume with the same program");
     update_probes(motion.state());
+    update_links(motion.state());
     reactions->update(motion.reference(), motion.state(), motion.links(), motion.report());
     const StepView step = view(motion.state());
     std::size_t i = 0;
@@ -177,16 +178,26 @@ namespace taut
             motion.measures(),
             probe_values,
             reactions->forces(),
+            links,
             motion.costs().sums()};
   }
 
   void ObservedRun::show(const State &state)
   {
     update_probes(state);
+    update_links(state);
     if (motion.has_moved())
       reactions->update(motion.reference(), state, motion.links(), motion.report());
     const StepView step = view(state);
     each([&](Observer &observer) { observer.record(step); });
+  }
+
+  void ObservedRun::update_links(const State &state)
+  {
+    const Constraints &rows = motion.links();
+    const std::size_t n = std::max(named.links.size(), rows.n_links());
+    rows.copy_of_links(state.multiplier, n, links.force);
+    rows.copy_of_links(state.distance, n, links.gap);
   }
 
   void ObservedRun::update_probes(const State &state)

@@ -101,7 +101,7 @@ namespace taut
     stop_before_start();
     if (has_time())
       choose_scheme();
-    if (has_time() && links.size() > 0)
+    if (has_time() && links.n_of_all() > 0)
       log << "Interface operator: " << motion->interface_description() << '\n';
     make_accuracy_report();
     stop_before_start();
@@ -172,9 +172,9 @@ namespace taut
     std::vector<std::size_t> massless;
     for (std::size_t i = 0; i < links.size(); ++i)
       if (links[i].is_link() && is_massless(model.links[links[i].link]))
-        massless.push_back(links.number(i));
-    if (!massless.empty())
-      log << "Mass redistribution: nodes of wires under " << links.names(massless)
+        massless.push_back(i);
+    if (const std::vector<std::size_t> all = links.numbers_of(massless); !all.empty())
+      log << "Mass redistribution: nodes of wires under " << links.names(all)
           << " gave their mass to their neighbours\n";
     motion->choose_scheme();
     log << (motion->choice().reason.empty() ? "Scheme: " : "Scheme (automatic): ")

@@ -80,25 +80,13 @@ namespace taut
         return {Source::Kind::probe, i};
     for (const SlidingContact &contact : sliding_contacts(scene, rows))
       if (contact.is_strip && contact.name == item.of)
-      {
-        std::vector<std::size_t> of_wires;
-        for (const std::size_t link : contact.links)
-          of_wires.push_back(rows.index_of_link(link));
-        return {Source::Kind::force_of_constraints, 0, of_wires};
-      }
+        return {Source::Kind::force_of_links, 0, contact.links};
     if (const std::vector<std::size_t> links = simulation.statistics().links_of_sum(item.of);
         !links.empty())
-    {
-      std::vector<std::size_t> of_links;
-      for (const std::size_t link : links)
-        of_links.push_back(rows.index_of_link(link));
-      return {Source::Kind::force_of_constraints, 0, of_links};
-    }
-    std::size_t row = 0;
-    while (row < rows.size() && (!rows[row].is_link() || rows[row].name != item.of))
-      ++row;
-    if (row < rows.size())
-      return {Source::Kind::force_of_constraints, 0, {row}};
+      return {Source::Kind::force_of_links, 0, links};
+    for (std::size_t l = 0; l < scene.links.size(); ++l)
+      if (scene.links[l].name == item.of)
+        return {Source::Kind::force_of_links, 0, {l}};
     const std::vector<SupportPoint> supports = support_points(scene);
     for (std::size_t i = 0; i < supports.size(); ++i)
       if (supports[i].name == item.of)
@@ -116,11 +104,11 @@ namespace taut
         source.history.push_back(step.probes[source.index]);
       else if (source.kind == Source::Kind::support)
         source.history.push_back(step.supports[source.index]);
-      else if (source.kind == Source::Kind::force_of_constraints)
+      else if (source.kind == Source::Kind::force_of_links)
       {
         double force = 0.;
-        for (const std::size_t row : source.rows)
-          force += step.state.multiplier[row];
+        for (const std::size_t link : source.links)
+          force += step.links.force[link];
         source.history.push_back(force);
       }
   }

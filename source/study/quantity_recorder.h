@@ -52,14 +52,13 @@ namespace taut
     {
       enum class Kind
       {
-        number,               ///< `index` in quantities_of()
-        force_of_constraints, ///< history of the force of `rows`, of a strip or a sum those of its
-                              ///< links
-        probe,                ///< history of probe `index`
-        support               ///< history of the force of support point `index`
+        number,         ///< `index` in quantities_of()
+        force_of_links, ///< history of the force of `links`, of a strip or a sum all of its own
+        probe,          ///< history of probe `index`
+        support         ///< history of the force of support point `index`
       } kind = Kind::number;
       std::size_t index = 0;
-      std::vector<std::size_t> rows = {};
+      std::vector<std::size_t> links = {};
       std::vector<double> history = {};
     };
     Source find(const StudyParameters::QuantityItem &item, const std::string &title) const;

@@ -114,22 +114,36 @@ namespace taut
       return result;
     }
 
+    std::string name_of(const Constraints &constraints, const std::size_t number)
+    {
+      const std::vector<Constraints::Label> labels = constraints.labels({number});
+      return labels.empty() ? "" : labels.front().name;
+    }
+
+    /// Name of the first row of any rank with this property; empty: none.
+    std::string first_row_that(const Constraints &constraints,
+                               const std::function<bool(std::size_t)> &is_so)
+    {
+      std::size_t i = 0;
+      while (i < constraints.size() && !is_so(i))
+        ++i;
+      return name_of(constraints,
+                     constraints.number_of_first(i < constraints.size() ? i : no_link));
+    }
+
     void check_restitution(const Structure &structure, const Constraints &constraints)
     {
       const std::vector<double> on_elements = rows_on_elements(structure, constraints);
       const std::string entry = "Time/Moreau-Jean/Restitution";
-      bool has_one = false;
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-      {
-        if (!constraints[i].cone.may_open() || !constraints[i].spring.is_rigid())
-          continue;
-        has_one = true;
-        if (on_elements[i] > 0.)
-          throw EntryError(entry, "an elastic body rebounds by its own waves, and with restitution "
-                                  "its node would bounce at the rigid link '" +
-                                      constraints[i].name + "'. Set it to 0");
-      }
-      if (!has_one)
+      const auto is_rigid = [&](const std::size_t i)
+      { return constraints[i].cone.may_open() && constraints[i].spring.is_rigid(); };
+      const std::string on_body = first_row_that(constraints, [&](const std::size_t i)
+                                                 { return is_rigid(i) && on_elements[i] > 0.; });
+      if (!on_body.empty())
+        throw EntryError(entry, "an elastic body rebounds by its own waves, and with restitution "
+                                "its node would bounce at the rigid link '" +
+                                    on_body + "'. Set it to 0");
+      if (first_row_that(constraints, is_rigid).empty())
         throw EntryError(entry, "restitution is a law of rigid unilateral links, and the scene has "
                                 "none. Set it to 0, or remove the Stiffness of a link");
     }
@@ -154,10 +168,8 @@ namespace taut
 
     std::string link_with_law(const Constraints &constraints)
     {
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (constraints[i].spring.law)
-          return constraints[i].name;
-      return "";
+      return first_row_that(constraints, [&](const std::size_t i)
+                            { return constraints[i].spring.law != nullptr; });
     }
 
     std::string link_that_turns(const Constraints &constraints)
@@ -177,7 +189,8 @@ namespace taut
                              const ContactResolution &resolution, const double restitution)
   {
     const std::size_t unresolved = resolution.first_unresolved();
-    const bool all_resolved = unresolved == constraints.size();
+    const bool all_resolved = unresolved == no_link;
+    const std::string of_unresolved = name_of(constraints, unresolved);
     if (restitution > 0.)
       check_restitution(structure, constraints);
     const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints),
@@ -195,11 +208,11 @@ namespace taut
         : all_resolved ? "link '" + law +
                              "' follows a law that is not linear, and the mean forces of this "
                              "scheme keep its energy"
-        : resolution.acts_as_rigid(unresolved)
-            ? "unilateral link '" + constraints[unresolved].name +
+        : resolution.is_unresolved_rigid()
+            ? "unilateral link '" + of_unresolved +
                   "' acts as rigid: it is stiffer than the bodies in one step"
             : "a step does not resolve the impacts at unilateral link '" +
-                  constraints[unresolved].name + "'";
+                  of_unresolved + "'";
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty() && !turning.empty())
       throw EntryError("Time/Scheme",
@@ -293,16 +306,13 @@ namespace taut
       throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
                                           turning +
                                           "' turns. Take 'automatic' or 'backward Euler'" + anyway);
-    const ContactResolution &of_rows = resolution(); // by all ranks together
-    std::size_t rigid = 0;
-    while (rigid < constraints.size() && !of_rows.acts_as_rigid(rigid))
-      ++rigid;
-    if (rigid == constraints.size())
+    const std::size_t rigid = resolution().first_rigid(); // by all ranks together
+    if (rigid == no_link)
       return;
     throw EntryError(
         "Time/Scheme",
         to_text(integrator.description(), " fails at unilateral links that act as rigid, here '",
-                constraints[rigid].name, "': an error of its force keeps ", c.ringing(),
+                name_of(constraints, rigid), "': an error of its force keeps ", c.ringing(),
                 " of itself from step to step, so that it rings. Take 'automatic' or more "
                 "dissipation, give the link a Stiffness, set 'Time/Mass redistribution'",
                 anyway));

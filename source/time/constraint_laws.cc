@@ -221,11 +221,8 @@ namespace taut
         result.force = std::max(result.force, std::fabs(at.multiplier[i] - rows[r].force(u[r])) *
                                                   F.diagonal(i) / terms);
     }
-    if (constraints.distributed() == Constraints::Distributed::fixed)
-    {
-      result.gap = constraints.max(result.gap);
-      result.force = constraints.max(result.force);
-    }
+    result.gap = constraints.max(result.gap);
+    result.force = constraints.max(result.force);
     return result;
   }
 

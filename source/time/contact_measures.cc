@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/archive.h>
+#include "time/stored_row_records.h"
+#include <taut/base/sparse_cholesky.h>
 #include <taut/time/contact_measures.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace taut
 {
@@ -62,12 +65,17 @@ namespace taut
         for (const unsigned int dof : form.index)
           highest[i] = std::max(highest[i], omega[k][dof]);
       }
-    std::vector<double> common;
-    for (const std::size_t i : constraints.common_rows())
-      common.push_back(highest[i]);
-    structure.communicator().max(common);
-    for (const std::size_t i : constraints.common_rows())
-      highest[i] = common[i - *constraints.common_rows().begin()];
+    // Of all ranks that have a row.
+    MatrixEntries of_ranks;
+    const Communicator &processes = structure.communicator();
+    for (std::size_t i = 0; i < highest.size(); ++i)
+      of_ranks.add(constraints.number(i), processes.rank(), highest[i]);
+    constraints.sum_entries(of_ranks, processes.size());
+    for (std::size_t e = 0; e < of_ranks.size(); ++e)
+    {
+      double &own = highest[constraints.index(of_ranks.row[e])];
+      own = std::max(own, of_ranks.value[e]);
+    }
     for (double &value : highest)
       value = value > 0. ? 2. / value : 0.;
     return highest;
@@ -83,6 +91,38 @@ namespace taut
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, report);
     }
+    agree();
+  }
+
+  /// Finds the summary of distributed rows, so that it is read without messages.
+  void ContactMeasures::agree()
+  {
+    if (!constraints.shared())
+      return;
+    agreed = found_now();
+    std::vector<std::size_t> named;
+    for (const std::size_t number : {agreed.energy_constraint, agreed.momentum_constraint,
+                                     agreed.gap_constraint, agreed.drifting_row,
+                                     agreed.resolution_row})
+      if (number != no_link)
+        named.push_back(number);
+    std::sort(named.begin(), named.end());
+    named.erase(std::unique(named.begin(), named.end()), named.end());
+    if (named == numbers)
+      return;
+    numbers = std::move(named);
+    labels = constraints.labels(numbers);
+  }
+
+  Constraints::Label ContactMeasures::label(const std::size_t number) const
+  {
+    if (!constraints.shared())
+      return number < constraints.size()
+                 ? Constraints::Label{constraints[number].name, constraints[number].origin}
+                 : Constraints::Label();
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
+    return at != numbers.end() && *at == number ? labels[at - numbers.begin()]
+                                                : Constraints::Label();
   }
 
   void ContactMeasures::add_wire_end(const std::size_t i, const State &state)
@@ -97,17 +137,14 @@ namespace taut
   template <typename Archive>
   void ContactMeasures::store(Archive &archive)
   {
-    for (const std::size_t i : constraints.common_rows())
-    {
-      Force &f = forces[i];
-      forget_past(f);
-      archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
-      archive &f.largest_impulse &f.gap &f.motion &f.last &f.end;
-    }
-    const std::size_t n = constraints.n_of_all();
-    std::size_t number = found.gap > 0. ? constraints.number(found.gap_constraint) : n;
-    archive &found.gap &number;
-    found.gap_constraint = number < n ? constraints.index(number) : no_link;
+    for (Force &force : forces)
+      forget_past(force);
+    store_of_rows(archive, constraints, forces);
+    std::vector<double> gap = {largest_gap};
+    std::size_t number = constraints.numbers_of_largest(gap, {gap_row}).front();
+    archive &gap.front() & number;
+    largest_gap = gap.front();
+    gap_row = constraints.index(number);
   }
 
   void ContactMeasures::save(OutputArchive &archive)
@@ -118,6 +155,7 @@ namespace taut
   void ContactMeasures::load(InputArchive &archive)
   {
     store(archive);
+    agree();
   }
 
   /// Drops the impulses before the window.
@@ -161,10 +199,10 @@ namespace taut
       return;
     const double gap = state.multiplier[i] > 0. ? std::fabs(state.complementarity_gap[i])
                                                 : -state.complementarity_gap[i];
-    if (gap > found.gap)
+    if (gap > largest_gap)
     {
-      found.gap = gap;
-      found.gap_constraint = i;
+      largest_gap = gap;
+      gap_row = i;
     }
     // A condition on velocities leaves a gap of about the motion of a step.
     Force &force = forces[i];
@@ -173,25 +211,49 @@ namespace taut
     force.gap = std::max(force.gap, gap);
   }
 
-  ContactMeasures::Summary ContactMeasures::summary() const
+  ContactMeasures::Summary ContactMeasures::found_now() const
   {
-    Summary result = found;
+    Summary result;
     static_cast<EnergySummary &>(result) = energy.summary();
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    // The largest gap, that above the motion of a step, and the largest resolution.
+    std::vector<double> largest = {largest_gap, 0., 1.};
+    std::vector<std::size_t> row = {gap_row, no_link, no_link};
+    const auto raise = [&](const std::size_t of, const double value, const std::size_t i)
+    {
+      if (!(value > largest[of]))
+        return;
+      largest[of] = value;
+      row[of] = i;
+    };
+    for (const std::size_t i : constraints.rows_but_cuts())
     {
       const Force &force = forces[i];
       if (force.gap > most_steps_of_motion * force.motion && force.gap > energy.noise(i) &&
-          force.motion > 0. &&
-          (result.drifting_row == no_link || force.gap > forces[result.drifting_row].gap))
-        result.drifting_row = i;
-      if (!(force.peak > result.resolution * force.mean_peak) || !(force.mean_peak > 0.))
-        continue;
-      result.resolution = force.peak / force.mean_peak;
-      result.resolution_row = i;
-      result.peak = force.peak;
-      result.mean_peak = force.mean_peak;
-      result.mean_time = force.window;
+          force.motion > 0.)
+        raise(1, force.gap, i);
+      if (force.mean_peak > 0.)
+        raise(2, force.peak / force.mean_peak, i);
     }
+    const std::vector<std::size_t> number = constraints.numbers_of_largest(largest, row);
+    result.gap = largest[0];
+    result.gap_constraint = number[0];
+    result.drifting_gap = largest[1];
+    result.drifting_row = number[1];
+    result.resolution = largest[2];
+    result.resolution_row = number[2];
+    std::vector<double> of_rows(4, 0.);
+    const auto is_counted = [&](const std::size_t i)
+    { return i < forces.size() && constraints.counts(i); };
+    if (const std::size_t i = constraints.index(number[1]); is_counted(i))
+      of_rows[0] = constraints[i].rotational;
+    if (const std::size_t i = constraints.index(number[2]); is_counted(i))
+      std::tie(of_rows[1], of_rows[2], of_rows[3]) =
+          std::tuple(forces[i].peak, forces[i].mean_peak, forces[i].window);
+    constraints.add_up(of_rows);
+    result.drift_is_rotation = of_rows[0] != 0.;
+    result.peak = of_rows[1];
+    result.mean_peak = of_rows[2];
+    result.mean_time = of_rows[3];
     return result;
   }
 } // namespace taut

@@ -20,7 +20,7 @@ namespace taut
         << s.relative_energy << " of the energy of what they are connected with, "
         << (took ? "which neither their springs nor their dampers account for"
                  : "where they can only take it")
-        << ": most at '" << constraints[s.energy_constraint].name
+        << ": most at '" << label(s.energy_constraint).name
         << "' between t = " << s.energy_begin << " and " << s.energy_end << " s";
     if (s.step > 0.)
       out << "; its shortest contact lasts " << s.contact_time << " s, " << s.contact_time / s.step
@@ -53,7 +53,7 @@ namespace taut
   std::string ContactMeasures::error_origin() const
   {
     const Summary s = summary();
-    return s.relative_energy > wrong_energy ? constraints.origin(s.energy_constraint) : "";
+    return s.relative_energy > wrong_energy ? label(s.energy_constraint).origin : "";
   }
 
   std::vector<Warning> ContactMeasures::warnings() const
@@ -70,7 +70,7 @@ namespace taut
           remedy());
     else if (s.relative_momentum > suspicious_momentum)
       add("contact_momentum", s.relative_momentum, suspicious_momentum, 0., "the impulse of '",
-          constraints[s.momentum_constraint].name, "' may be off by ", 100. * s.relative_momentum,
+          label(s.momentum_constraint).name, "' may be off by ", 100. * s.relative_momentum,
           " % of the largest of a contact, by the energy that its contacts gave or took beside its "
           "spring and damper: the step does not resolve them. ",
           remedy());
@@ -80,10 +80,10 @@ namespace taut
           remedy());
     if (s.drifting_row != no_link)
     {
-      const bool turns = constraints[s.drifting_row].rotational;
-      const double gap = forces[s.drifting_row].gap;
+      const bool turns = s.drift_is_rotation;
+      const double gap = s.drifting_gap;
       result.push_back({"contact_gap",
-                        to_text(std::setprecision(3), "'", constraints[s.drifting_row].name,
+                        to_text(std::setprecision(3), "'", label(s.drifting_row).name,
                                 "' presses across a gap of ", gap, turns ? " rad" : " m",
                                 ", or penetrates as far: more than the motion of two steps. Set "
                                 "'Time/Scheme' to 'automatic', or 'Moreau-Jean/Conditions' to "
@@ -104,7 +104,7 @@ namespace taut
                           forces[i].end.time});
     if (s.resolution > unresolved)
       add("peak_over_mean", s.resolution, unresolved, 0., "the largest force of '",
-          constraints[s.resolution_row].name, "', ", s.peak,
+          label(s.resolution_row).name, "', ", s.peak,
           " N, is an impulse over a step; its largest mean over ", s.mean_time, " s is ",
           s.mean_peak, " N: report that, or the impulse, or set 'Time/Mass redistribution'");
     return result;

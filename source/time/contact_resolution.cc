@@ -110,30 +110,37 @@ namespace taut
 
     void judge_rigid(const std::vector<char> &without_mass)
     {
-      std::vector<double> column;
+      std::vector<std::size_t> massless;
       for (std::size_t i = 0; i < of.size(); ++i)
+        if (of[i].unilateral && !of[i].elastic)
+        {
+          of[i].ratio = std::numeric_limits<double>::infinity();
+          if (without_mass[i])
+            massless.push_back(i);
+        }
+      std::vector<double> alone, joined;
+      for (const std::size_t number : constraints.numbers_of(massless))
       {
-        if (!of[i].unilateral || of[i].elastic)
-          continue;
-        of[i].ratio = std::numeric_limits<double>::infinity();
-        if (!without_mass[i])
-          continue;
-        at_once.column(i, {}, column);
-        const double alone = column[i];
-        at_once.column(i, joins(constraints, true, i), column);
-        if (column[i] >= own_part * alone)
+        const std::size_t i = constraints.index(number);
+        at_once.column(i, {}, alone);
+        at_once.column(i, joins(constraints, true, i), joined);
+        if (i < of.size() && joined[i] >= own_part * alone[i])
           of[i].ratio = 0.;
       }
     }
 
-    /// Judges elastic constraints in each group of connected bodies.
-    void judge_elastic(const std::vector<std::size_t> &rows)
+    /// Judges elastic constraints, by their numbers, in each group of connected bodies.
+    void judge_elastic(const std::vector<std::size_t> &numbers)
     {
-      find_shares(rows);
+      find_shares(numbers);
       const ConnectedBodies connected(structure, constraints);
+      std::vector<double> groups(constraints.size());
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        groups[i] = static_cast<double>(connected.of_constraint(i));
+      groups = constraints.of_rows(groups, numbers);
       std::vector<std::vector<std::size_t>> of_group(connected.n_groups());
-      for (const std::size_t i : rows)
-        of_group[connected.of_constraint(i)].push_back(i);
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        of_group[static_cast<std::size_t>(groups[k])].push_back(numbers[k]);
       for (const std::vector<std::size_t> &group : of_group)
         if (group.size() > most_columns)
           judge_by_bounds(group);
@@ -155,23 +162,31 @@ namespace taut
 
   private:
     /// Judges by entries of F.
-    void judge_together(const std::vector<std::size_t> &rows)
+    void judge_together(const std::vector<std::size_t> &numbers)
     {
-      std::vector<std::vector<double>> G(rows.size(), std::vector<double>(rows.size(), 0.));
+      const std::size_t n = numbers.size();
+      const std::vector<double> S = constraints.of_rows(in_step.compliances(), numbers);
+      std::vector<std::vector<double>> G(n, std::vector<double>(n, 0.));
       std::vector<double> column;
-      for (std::size_t a = 0; a < rows.size(); ++a)
+      for (std::size_t a = 0; a < n; ++a)
       {
-        in_step.column(rows[a], closed, column);
-        for (std::size_t b = 0; b < rows.size(); ++b)
-          G[b][a] = std::max(0., column[rows[b]]) /
-                    std::sqrt(in_step.compliance(rows[a]) * in_step.compliance(rows[b]));
+        in_step.column(constraints.index(numbers[a]), closed, column);
+        const std::vector<double> of_group = constraints.of_rows(column, numbers);
+        for (std::size_t b = 0; b < n; ++b)
+          G[b][a] = std::max(0., of_group[b]) / std::sqrt(S[a] * S[b]);
       }
       for (const std::vector<std::size_t> &group : coupled_rows(G))
       {
         const double ratio = largest_eigenvalue(G, group);
         for (const std::size_t a : group)
-          of[rows[a]].ratio = ratio;
+          set_ratio(numbers[a], ratio);
       }
+    }
+
+    void set_ratio(const std::size_t number, const double ratio)
+    {
+      if (const std::size_t i = constraints.index(number); i < of.size())
+        of[i].ratio = ratio;
     }
 
     /// False if a constraint leaves its body; the run reports this when it gets there.
@@ -198,30 +213,35 @@ namespace taut
     {
       std::vector<double> column;
       in_step.column(i, closed, column);
-      of[i].ratio = std::max(of[i].ratio, column[i] / in_step.compliance(i));
+      of[i].ratio = std::max(of[i].ratio, column[i] / in_step.compliances()[i]);
       at_once.column(i, closed, column);
       find_share(i, column[i]);
     }
 
     /// Judges by |F_ij| <= sqrt(F_ii F_jj): the sum of the ratios.
-    void judge_by_bounds(const std::vector<std::size_t> &rows)
+    void judge_by_bounds(const std::vector<std::size_t> &numbers)
     {
       double sum = 0.;
       std::vector<double> column;
-      for (const std::size_t i : rows)
+      for (const std::size_t number : numbers)
       {
+        const std::size_t i = constraints.index(number);
         in_step.column(i, {}, column);
-        sum += column[i] / in_step.compliance(i);
+        if (i < of.size() && constraints.counts(i))
+          sum += column[i] / in_step.compliances()[i];
       }
-      for (const std::size_t i : rows)
-        of[i].ratio = sum;
+      sum = constraints.added_up(sum);
+      for (const std::size_t number : numbers)
+        set_ratio(number, sum);
     }
 
-    /// Share of a single constraint, with F of a short step for f_ii / m of its joined bodies.
+    /// Share of a single constraint of this rank, or of none, with F of a short step for f_ii / m of
+    /// its joined bodies.
     void find_share(const std::size_t i, const double flexibility)
     {
       double share = 0.;
-      for (const Term &term : constraints[i].terms)
+      const bool is_here = i < of.size();
+      for (const Term &term : is_here ? constraints[i].terms : no_terms)
       {
         const double own = structure[term.substructure].is_lumped()
                                ? at_once.of_body(term) / flexibility
@@ -230,20 +250,26 @@ namespace taut
                                       mass[wholes.of_body(term.substructure)]);
         share = std::max(share, own);
       }
-      of[i].share = std::min(1., structure.communicator().max(share));
+      share = structure.communicator().max(share);
+      if (is_here)
+        of[i].share = std::min(1., share);
     }
 
     /// Shares on elastic bodies: constraints that push a body to the same side act together. Bodies
     /// joined by rigid bilateral constraints count as one, so that cuts of a wire have no effect.
-    void find_shares(const std::vector<std::size_t> &rows)
+    void find_shares(const std::vector<std::size_t> &numbers)
     {
       std::vector<double> column, of_whole(2 * wholes.n_groups(), 0.);
       const auto side = [&](const Term &term) {
         return 2 * wholes.of_body(term.substructure) + (part_of_translation(structure, term) < 0.);
       };
-      for (const std::size_t i : rows)
+      for (const std::size_t number : numbers)
       {
+        const std::size_t i = constraints.index(number);
         at_once.column(i, closed, column);
+        find_share(i, i < of.size() ? column[i] : 0.);
+        if (i >= of.size())
+          continue;
         const double flexibility = column[i] * at_once.mass_factor();
         of[i].contact_time =
             std::acos(-1.) / std::sqrt(constraints[i].spring.stiffness * std::max(flexibility, 0.));
@@ -252,7 +278,6 @@ namespace taut
         of[i].damping_ratio = constraints[i].spring.damping / critical;
         of[i].comes_back_slowly =
             of[i].damping_ratio >= no_rebound && of[i].contact_time >= steps_of_a_contact * step;
-        find_share(i, column[i]);
         for (const Term &term : constraints[i].terms)
         {
           const double part = part_of_translation(structure, term);
@@ -260,14 +285,21 @@ namespace taut
         }
       }
       structure.communicator().sum(of_whole);
-      for (const std::size_t i : rows)
+      std::vector<double> shares(numbers.size(), 0.);
+      for (std::size_t k = 0; k < numbers.size(); ++k)
       {
-        double share = of[i].share;
+        const std::size_t i = constraints.index(numbers[k]);
+        if (i >= of.size())
+          continue;
+        shares[k] = of[i].share;
         for (const Term &term : constraints[i].terms)
           if (!structure[term.substructure].is_lumped())
-            share = std::max(share, of_whole[side(term)]);
-        of[i].share = std::min(1., structure.communicator().max(share));
+            shares[k] = std::max(shares[k], of_whole[side(term)]);
       }
+      structure.communicator().max(shares);
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        if (const std::size_t i = constraints.index(numbers[k]); i < of.size())
+          of[i].share = std::min(1., shares[k]);
     }
 
     const Structure &structure;
@@ -278,12 +310,21 @@ namespace taut
     const ConnectedBodies wholes; ///< bodies joined by rigid bilateral constraints
     std::vector<double> mass;     ///< of each group in wholes [kg]
     const std::vector<std::size_t> closed;
+    const std::vector<Term> no_terms;
   };
 
   ContactResolution::ContactResolution(const Structure &structure, const Constraints &all,
                                        const SolverParameters &parameters, const double step,
                                        const double longest, const double until)
       : adaptive(longest > step), of(all.size())
+  {
+    judge(structure, all, parameters, step, longest, until);
+    find_first(all);
+  }
+
+  void ContactResolution::judge(const Structure &structure, const Constraints &all,
+                                const SolverParameters &parameters, const double step,
+                                const double longest, const double until)
   {
     Constraints constraints = all; // slides along its way
     const std::vector<char> without_mass = constraints.without_mass();
@@ -300,7 +341,7 @@ namespace taut
         (constraints.slides(i) ? moving : elastic).push_back(i);
       is_needed = is_needed || (constraint.cone.may_open() && (of[i].elastic || without_mass[i]));
     }
-    if (!is_needed)
+    if (!constraints.any(is_needed))
     {
       for (Row &row : of)
         row.ratio = row.unilateral ? std::numeric_limits<double>::infinity() : 0.;
@@ -308,7 +349,7 @@ namespace taut
     }
     Search search(structure, constraints, parameters, step, of);
     search.judge_rigid(without_mass);
-    search.judge_elastic(elastic);
+    search.judge_elastic(constraints.numbers_of(elastic));
     if (moving.empty())
       return;
     if (longest > step)
@@ -324,12 +365,22 @@ namespace taut
                                !(adaptive && row.may_conserve && row.share > large_share));
   }
 
-  std::size_t ContactResolution::first_unresolved() const
+  void ContactResolution::find_first(const Constraints &constraints)
   {
-    std::size_t i = 0;
-    while (i < of.size() && is_resolved(i))
-      ++i;
-    return i;
+    std::size_t first_rigid = no_link, first_unresolved = no_link;
+    std::vector<double> are_rigid(of.size(), 0.);
+    for (std::size_t i = of.size(); i-- > 0;)
+    {
+      if (acts_as_rigid(i))
+        first_rigid = i;
+      if (!is_resolved(i))
+        first_unresolved = i;
+      are_rigid[i] = acts_as_rigid(i);
+    }
+    rigid = constraints.number_of_first(first_rigid);
+    unresolved = constraints.number_of_first(first_unresolved);
+    if (unresolved != no_link)
+      unresolved_is_rigid = constraints.of_rows(are_rigid, {unresolved}).front() > 0.;
   }
 
   std::vector<char> ContactResolution::conserving() const

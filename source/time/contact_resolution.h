@@ -46,9 +46,11 @@ namespace taut
     bool acts_as_rigid(const std::size_t i) const { return of[i].ratio > 1.; }
     bool is_resolved(std::size_t i) const;
 
-    /// The first unresolved unilateral constraint; size(): none.
-    std::size_t first_unresolved() const;
-    std::size_t size() const { return of.size(); }
+    /// The first unilateral constraint that acts as rigid, and that is not resolved, and whether
+    /// this one acts as rigid: by their numbers, the same on all ranks; no_link: none.
+    std::size_t first_rigid() const { return rigid; }
+    std::size_t first_unresolved() const { return unresolved; }
+    bool is_unresolved_rigid() const { return unresolved_is_rigid; }
 
     double ratio(const std::size_t i) const { return of[i].ratio; }
     double share(const std::size_t i) const { return of[i].share; }
@@ -72,8 +74,14 @@ namespace taut
       bool comes_back_slowly = false; ///< the spring, after a contact
     };
     class Search;
+    void judge(const Structure &structure, const Constraints &all,
+               const SolverParameters &parameters, double step, double longest, double until);
+    void find_first(const Constraints &constraints);
+
     const bool adaptive;
     std::vector<Row> of;
+    std::size_t rigid = no_link, unresolved = no_link;
+    bool unresolved_is_rigid = false;
   };
 
   /// Flexibilities of bodies at single constraints, where bodies that are cut in parts respond as a
@@ -84,15 +92,15 @@ namespace taut
     /// The argument is kept by reference.
     explicit WholeBodies(const Constraints &constraints) : constraints(constraints) {}
 
-    /// F_ii - F_ib F_bb^-1 F_bi of the constraints @p wanted, with the rigid bilateral constraints
-    /// b closed; 0 for the other constraints. Valid until the next call, by all ranks together
-    /// [m/N, rad/(N m)].
+    /// F_ii - F_ib F_bb^-1 F_bi of the constraints that any rank has in @p wanted, with the rigid
+    /// bilateral constraints b closed; 0 for the other constraints. Valid until the next call, by
+    /// all ranks together [m/N, rad/(N m)].
     const std::vector<double> &flexibilities(const std::vector<std::size_t> &wanted,
                                              ComplementarityOperator &F);
 
   private:
     const Constraints &constraints;
-    std::vector<std::size_t> joints;
+    std::vector<std::size_t> joints, rows;
     std::vector<double> result;
   };
 } // namespace taut

@@ -3,6 +3,7 @@
 #include "time/matrix_norms.h"
 #include "time/nonlinear_step.h"
 #include "time/step.h"
+#include "time/stored_row_records.h"
 #include <taut/base/archive.h>
 #include <taut/time/energy_account.h>
 
@@ -51,7 +52,7 @@ namespace taut
     terms.resize(rows.size());
     constraints.share_of_motions(reference.displacement, work, terms);
     constraints.sum(terms);
-    for (std::size_t i = rows.size(); i-- > 0;)
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
       Row &row = rows[i];
       row.multiplier = start.multiplier[i];
@@ -59,13 +60,27 @@ namespace taut
       row.u = start.springs[i].u;
       row.noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
       row.begin = start.time;
-      if (constraints[i].cone.may_open())
-        groups[connected.of_constraint(i)].first_one_sided = i;
     }
+    set_first_one_sided();
     set_rest(start);
     measure_scale(start, {});
     add_kinetic_energies(start.V, kinetic);
     structure.communicator().sum(kinetic);
+  }
+
+  void EnergyAccount::set_first_one_sided()
+  {
+    std::vector<std::size_t> first(groups.size(), no_link);
+    std::vector<double> has_one(groups.size(), 0.);
+    for (std::size_t i = rows.size(); i-- > 0;)
+      if (const std::size_t g = connected.of_constraint(i); constraints[i].cone.may_open())
+      {
+        first[g] = i;
+        has_one[g] = 1.;
+      }
+    first = constraints.numbers_of_largest(has_one, first);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      groups[g].first_one_sided = first[g];
   }
 
   /// Finds what is rounding, and groups with large motions.
@@ -89,18 +104,12 @@ namespace taut
                           noise_turn * body.rounding_of_force(1);
           }
         });
-    const auto add_row = [&](const std::size_t i)
-    {
-      at_rest[connected.of_constraint(i)] +=
-          std::fabs(start.multiplier[i]) * rows[i].noise / rounding_of_gaps;
-    };
-    const Constraints::Rows common = constraints.common_rows();
-    for (std::size_t i = 0; i < *common.begin(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i)
       if (constraints.is_own(i))
-        add_row(i);
+        at_rest[connected.of_constraint(i)] +=
+            std::fabs(start.multiplier[i]) * rows[i].noise / rounding_of_gaps;
     for (std::vector<double> *const sum : {&n_nonlinear, &at_rest, &of_step})
       structure.communicator().sum(*sum);
-    std::for_each(common.begin(), common.end(), add_row);
     for (const std::size_t i : constraints.turning_rows())
       n_nonlinear[connected.of_constraint(i)] += 1.;
     for (std::size_t g = 0; g < n; ++g)
@@ -126,7 +135,7 @@ namespace taut
           on_velocities || (constraints[i].cone.may_open() && method.rules[i].is_on_velocity());
     if (method.has_means())
     {
-      if (!on_velocities && (constraints.n_of_all() > 0 || !nonlinear.is_linear()))
+      if (!constraints.any(on_velocities) && (constraints.n_of_all() > 0 || !nonlinear.is_linear()))
         measure_means(step, nonlinear, state);
     }
     else if (!nonlinear.is_linear() && method.c.is_backward_euler())
@@ -182,9 +191,10 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
       sums[n + connected.of_body(k)] -= step.balance().work(k);
     add_kinetic_energies(state.V, sums);
+    for (const std::size_t i : constraints.rows_but_cuts())
+      if (constraints.is_own(i))
+        sums[n + connected.of_constraint(i)] += gain_of_spring(i, state, report);
     structure.communicator().sum(sums);
-    for (const std::size_t i : constraints.common_rows())
-      sums[n + connected.of_constraint(i)] += gain_of_spring(i, state, report);
     report.gains.assign(n, 0.);
     for (std::size_t g = 0; g < n; ++g)
     {
@@ -216,15 +226,27 @@ namespace taut
   void EnergyAccount::record(const State &state, const StepReport &report, const BodyVectors &P)
   {
     ++n_steps;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (state.multiplier[i] > 0. && constraints[i].cone.may_open())
-        impulse_of(i) += state.multiplier[i] * state.last_step;
+    add_impulses(state);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (constraints[i].cone.may_open())
         record_row(i, state, report);
     add_gains(report);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
       measure_scale(state, P);
+  }
+
+  /// Adds the impulses of the step to the groups.
+  void EnergyAccount::add_impulses(const State &state)
+  {
+    sums.assign(2 * groups.size(), 0.);
+    for (const std::size_t i : constraints.rows_but_cuts())
+      if (state.multiplier[i] > 0. && constraints[i].cone.may_open() && constraints.counts(i))
+        sums[2 * connected.of_constraint(i) + (constraints[i].rotational ? 1 : 0)] +=
+            state.multiplier[i] * state.last_step;
+    constraints.add_up(sums);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (std::size_t kind = 0; kind < 2; ++kind)
+        groups[g].impulse[kind] += sums[2 * g + kind];
   }
 
   /// Without a unilateral constraint, no contact can have caused a gain.
@@ -240,7 +262,7 @@ namespace taut
     }
   }
 
-  double &EnergyAccount::impulse_of(const std::size_t i)
+  double EnergyAccount::impulse_of(const std::size_t i) const
   {
     return groups[connected.of_constraint(i)].impulse[constraints[i].rotational ? 1 : 0];
   }
@@ -392,95 +414,127 @@ namespace taut
       rows[i].noise = std::max(rows[i].noise, rounding_of_gaps * terms[i]);
   }
 
-  EnergySummary EnergyAccount::summary() const
+  /// Of each group, over all ranks.
+  struct EnergyAccount::WorstOfGroups
   {
-    EnergySummary result;
-    find_energy(result);
-    find_momentum(result);
-    return result;
-  }
+    /// Largest energy of a constraint, momentum error, and impulse of a contact, in turn.
+    std::vector<double> largest;
+    std::vector<std::size_t> number; ///< of the constraint; no_link: none
+    std::vector<double> sums;        ///< energy given and taken, in turn [J]
 
-  /// Finds the group with most contact energy, and its worst constraint.
-  void EnergyAccount::find_energy(EnergySummary &result) const
-  {
-    struct Sums
+    static constexpr std::size_t n_of_largest = 3;
+    enum Of : std::size_t
     {
-      double given = 0., taken = 0., worst = 0.;
-      std::size_t row = no_link;
+      energy,
+      momentum,
+      impulse
     };
-    std::vector<Sums> of_groups;
-    for (const Group &group : groups)
-      of_groups.push_back({group.contact_gains, 0., 0., group.first_one_sided});
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    double of(const std::size_t g, const Of of) const { return largest[n_of_largest * g + of]; }
+    std::size_t number_of(const std::size_t g, const Of of) const
+    {
+      return number[n_of_largest * g + of];
+    }
+  };
+
+  EnergyAccount::WorstOfGroups EnergyAccount::worst_of_groups() const
+  {
+    using Worst = WorstOfGroups;
+    Worst result;
+    result.largest.assign(Worst::n_of_largest * groups.size(), 0.);
+    result.number.assign(Worst::n_of_largest * groups.size(), no_link);
+    result.sums.assign(2 * groups.size(), 0.);
+    for (const std::size_t i : constraints.rows_but_cuts())
     {
       if (!constraints[i].cone.may_open())
         continue;
       const Contacts contacts = contacts_of(i);
-      Sums &own = of_groups[connected.of_constraint(i)];
-      own.given += contacts.given;
-      own.taken += contacts.taken;
-      if (!(contacts.given + contacts.taken > own.worst))
+      const std::size_t g = connected.of_constraint(i);
+      const auto raise = [&](const Worst::Of of, const double value)
+      {
+        const std::size_t at = Worst::n_of_largest * g + of;
+        if (!(value > result.largest[at]))
+          return;
+        result.largest[at] = value;
+        result.number[at] = i;
+      };
+      raise(Worst::energy, contacts.given + contacts.taken);
+      raise(Worst::momentum, contacts.momentum);
+      raise(Worst::impulse, contacts.impulse);
+      if (!constraints.counts(i))
         continue;
-      own.worst = contacts.given + contacts.taken;
-      own.row = i;
+      result.sums[2 * g] += contacts.given;
+      result.sums[2 * g + 1] += contacts.taken;
     }
+    result.number = constraints.numbers_of_largest(result.largest, result.number);
+    constraints.add_up(result.sums);
+    return result;
+  }
+
+  EnergySummary EnergyAccount::summary() const
+  {
+    const WorstOfGroups worst = worst_of_groups();
+    EnergySummary result;
+    find_energy(worst, result);
+    find_momentum(worst, result);
+    return result;
+  }
+
+  /// Finds the group with most contact energy, and its worst constraint.
+  void EnergyAccount::find_energy(const WorstOfGroups &worst, EnergySummary &result) const
+  {
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
-      const Sums &own = of_groups[g];
-      const double energy = own.given + own.taken, scale = groups[g].scale();
-      if (own.row != no_link && energy > result.relative_energy * scale)
+      const std::size_t first = groups[g].first_one_sided,
+                        number = worst.number_of(g, WorstOfGroups::energy);
+      const double taken = worst.sums[2 * g + 1],
+                   energy = groups[g].contact_gains + worst.sums[2 * g] + taken,
+                   scale = groups[g].scale();
+      if (first != no_link && energy > result.relative_energy * scale)
       {
-        const Contacts contacts = contacts_of(own.row);
         result.relative_energy = energy / scale;
         result.contact_energy = energy;
-        result.taken = own.taken;
+        result.taken = taken;
         result.scale = scale;
-        result.energy_constraint = own.row;
-        result.energy_begin = contacts.begin;
-        result.energy_end = contacts.end;
-        result.contact_time = std::isfinite(contacts.shortest) ? contacts.shortest : 0.;
-        result.step = contacts.step;
+        result.energy_constraint = number == no_link ? first : number;
       }
       const double gain = groups[g].motion_gains - n_steps * groups[g].rest_of_step;
       result.motion_energy += groups[g].motion_gains;
       if (gain > 0.)
         result.relative_motion_energy = std::max(result.relative_motion_energy, gain / scale);
     }
+    if (result.energy_constraint == no_link)
+      return;
+    std::vector<double> of_worst(4, 0.);
+    if (const std::size_t i = constraints.index(result.energy_constraint);
+        i < rows.size() && constraints.counts(i))
+    {
+      const Contacts contacts = contacts_of(i);
+      of_worst = {contacts.begin, contacts.end, contacts.shortest, contacts.step};
+    }
+    constraints.add_up(of_worst);
+    result.energy_begin = of_worst[0];
+    result.energy_end = of_worst[1];
+    result.contact_time = std::isfinite(of_worst[2]) ? of_worst[2] : 0.;
+    result.step = of_worst[3];
   }
 
-  void EnergyAccount::find_momentum(EnergySummary &result) const
+  void EnergyAccount::find_momentum(const WorstOfGroups &worst, EnergySummary &result) const
   {
-    struct Worst
-    {
-      double impulse = 0., momentum = 0.;
-      std::size_t constraint = 0;
-    };
-    std::vector<Worst> worst(groups.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (constraints[i].cone.may_open())
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (const double impulse = worst.of(g, WorstOfGroups::impulse),
+          momentum = worst.of(g, WorstOfGroups::momentum);
+          impulse > 0. && momentum > result.relative_momentum * impulse)
       {
-        const Contacts contacts = contacts_of(i);
-        Worst &own = worst[connected.of_constraint(i)];
-        own.impulse = std::max(own.impulse, contacts.impulse);
-        if (!(contacts.momentum > own.momentum))
-          continue;
-        own.momentum = contacts.momentum;
-        own.constraint = i;
-      }
-    for (const Worst &w : worst)
-      if (w.impulse > 0. && w.momentum > result.relative_momentum * w.impulse)
-      {
-        result.momentum = w.momentum;
-        result.relative_momentum = w.momentum / w.impulse;
-        result.momentum_constraint = w.constraint;
+        result.momentum = momentum;
+        result.relative_momentum = momentum / impulse;
+        result.momentum_constraint = worst.number_of(g, WorstOfGroups::momentum);
       }
   }
 
   template <typename Archive>
   void EnergyAccount::store(Archive &archive)
   {
-    for (const std::size_t i : constraints.common_rows())
-      archive &rows[i];
+    store_of_rows(archive, constraints, rows);
     for (Group &group : groups)
       archive &group;
     archive &kinetic &n_steps;

@@ -100,14 +100,26 @@ namespace taut
       }
     }
 
-    [[noreturn]] void complain_about_penetration(const Constraints &constraints,
-                                                 const std::size_t i, const double gap)
+    /// Refuses rigid unilateral constraints that are closed beyond contact.
+    void check_penetration(const Structure &structure, const Constraints &constraints,
+                           const std::vector<double> &gaps)
     {
-      throw EntryError(constraints.origin(i),
-                       to_text("link '", constraints[i].name, "' starts with a gap of ", gap,
-                               constraints[i].rotational ? " rad" : " m",
-                               ": a rigid unilateral link starts open or just touching. Change its "
-                               "Gap or the start."));
+      std::size_t found = no_link;
+      for (std::size_t i = constraints.size(); i-- > 0;)
+        if (gaps[i] < 0. && constraints[i].cone.may_open())
+          found = i;
+      const std::size_t i = constraints.index(constraints.number_of_first(found));
+      structure.communicator().agree(
+          [&]
+          {
+            if (i < constraints.size())
+              throw EntryError(
+                  constraints.origin(i),
+                  to_text("link '", constraints[i].name, "' starts with a gap of ", gaps[i],
+                          constraints[i].rotational ? " rad" : " m",
+                          ": a rigid unilateral link starts open or just touching. Change its "
+                          "Gap or the start."));
+          });
     }
 
     /// Refuses a turning constraint with a force whose places meet.
@@ -123,7 +135,8 @@ namespace taut
     }
 
     /// Sets gaps, and springs of links with their forces.
-    void set_rows(Constraints &constraints, const Start start, InitialState &result)
+    void set_rows(const Structure &structure, Constraints &constraints, const Start start,
+                  InitialState &result)
     {
       State &state = result.state;
       constraints.turn_to(result.reference.displacement, state.U);
@@ -169,10 +182,8 @@ namespace taut
         result.reference.gap = state.distance;
       else
         close_rounded_gaps(constraints, motion, ends, result);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (start != Start::equilibrium && state.complementarity_gap[i] < 0. &&
-            constraints[i].cone.may_open())
-          complain_about_penetration(constraints, i, state.complementarity_gap[i]);
+      if (start != Start::equilibrium)
+        check_penetration(structure, constraints, state.complementarity_gap);
     }
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
     /// closed: for numbers with five digits.
@@ -268,7 +279,7 @@ namespace taut
           }
           set_prescribed_velocities(structure, step, state);
         });
-    set_rows(constraints, start, result);
+    set_rows(structure, constraints, start, result);
     if (start != Start::equilibrium)
       check_joints(structure, constraints, result);
     return result;

@@ -59,6 +59,8 @@ namespace taut
         if (constraints.slides(i))
           moving_elastic.push_back(i);
       }
+    has_laws = constraints.any(has_laws);
+    some_elastic = constraints.any(!elastic.empty());
     const auto before =
         std::find_if(known.begin(), known.end(), [&](const Known &one) { return one.c == c; });
     if (before != known.end())
@@ -144,7 +146,7 @@ namespace taut
       schur->set_compliance(compliances);
       schur->update_moving();
     }
-    if (elastic.empty())
+    if (!some_elastic)
       return;
     softened.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)

@@ -66,7 +66,8 @@ namespace taut
         step(structure, constraints, options.solver, initial.reference, method, nonlinear.bodies(),
              nonlinear.constraints(), state),
         errors(structure, constraints, initial.reference),
-        control(options.steps, options.step, n_steps, !nonlinear.is_linear(), longest_steps),
+        control(constraints, options.steps, options.step, n_steps, !nonlinear.is_linear(),
+                longest_steps),
         length(options.step), segment_start(state.time)
   {
   }

@@ -49,9 +49,12 @@ namespace taut
       if (F.diagonal(j) > 0.)
         set.push_back(j);
     std::vector<double> unit(constraints.size(), 0.), x, of_x;
-    unit[i] = 1.;
+    const bool is_here = i < unit.size();
+    if (is_here)
+      unit[i] = 1.;
     F.apply(unit, result);
-    result[i] -= S[i];
+    if (is_here)
+      result[i] -= S[i];
     add_modes(i, result);
     if (!constraints.any(!set.empty()) ||
         (!F.solve(set, result, 0., x) && !F.solve(set, result, shift_of_dependent_rows, x)))
@@ -67,7 +70,7 @@ namespace taut
     if (!solvers.has_rigid_body_modes())
       return;
     std::vector<double> sums(constraints.size(), 0.);
-    for (std::size_t k = 0; k < structure.size(); ++k)
+    for (std::size_t k = 0; k < structure.size() && i < constraints.size(); ++k)
     {
       const auto &modes = solvers.rigid_body_modes()[k];
       for (std::size_t v = 0; v < modes.vectors.size(); ++v)
@@ -90,7 +93,15 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
         joints.push_back(i);
-    F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, constraints.shared(), result);
+    if (!constraints.shared())
+    {
+      F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, nullptr, result);
+      return result;
+    }
+    rows.clear();
+    for (const std::size_t number : constraints.numbers_of(wanted))
+      rows.push_back(constraints.index(number));
+    F.condensed_diagonal(rows, joints, shift_of_dependent_rows, constraints.shared(), result);
     return result;
   }
 

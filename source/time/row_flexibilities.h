@@ -29,8 +29,8 @@ namespace taut
     RowFlexibilities(const Structure &structure, const Constraints &constraints,
                      const SolverParameters &parameters, double step);
 
-    /// S of a constraint with its damper [m/N, rad/(N m)].
-    double compliance(const std::size_t i) const { return S[i]; }
+    /// S of the constraints with their dampers [m/N, rad/(N m)].
+    const std::vector<double> &compliances() const { return S; }
 
     /// Factor of M in A [1/s^2].
     double mass_factor() const { return c.mass_factor(); }
@@ -38,7 +38,8 @@ namespace taut
     /// B_i^T A^-1 B_i for one body of this rank [m/N, rad/(N m)].
     double of_body(const Term &term) const;
 
-    /// Column i of F with the constraints in @p closed imposed, each with its S.
+    /// Column i of F with the constraints in @p closed imposed, each with its S; no_link on a rank
+    /// that does not have this row.
     void column(std::size_t i, const std::vector<std::size_t> &closed,
                 std::vector<double> &result) const;
 

@@ -32,7 +32,8 @@ namespace taut
     /// Order of the local error of smooth motions in the step.
     constexpr double order_of_error = 3.;
 
-    unsigned int halvings(const StepParameters &parameters, const double step, const bool may_halve,
+    unsigned int halvings(const Constraints &constraints, const StepParameters &parameters,
+                          const double step, const bool may_halve,
                           const std::vector<LongestStep> &longest_steps)
     {
       unsigned int n = parameters.adaptive() ? parameters.n_halvings
@@ -42,7 +43,7 @@ namespace taut
         if (const double shortest = longest.shortest(); shortest < step)
           n = std::max(n, std::min(most_for_contacts, static_cast<unsigned int>(
                                                           std::ceil(std::log2(step / shortest)))));
-      return n;
+      return static_cast<unsigned int>(constraints.max(n));
     }
   } // namespace
 
@@ -84,10 +85,12 @@ namespace taut
     return n;
   }
 
-  StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps,
-                           const bool may_halve, std::vector<LongestStep> longest)
-      : parameters(parameters), longest_steps(std::move(longest)),
-        n_levels(halvings(parameters, step, may_halve, longest_steps)), step(step),
+  StepControl::StepControl(const Constraints &constraints, const StepParameters &parameters,
+                           const double step, const long n_steps, const bool may_halve,
+                           std::vector<LongestStep> longest)
+      : constraints(constraints), parameters(parameters), longest_steps(std::move(longest)),
+        some_longest_steps(constraints.any(!longest_steps.empty())),
+        n_levels(halvings(constraints, parameters, step, may_halve, longest_steps)), step(step),
         shortest(std::ldexp(step, -static_cast<int>(n_levels))),
         end(std::min(n_steps, std::numeric_limits<long>::max() >> n_levels) << n_levels),
         level(n_levels), last_open(longest_steps.size(), -std::numeric_limits<double>::infinity())
@@ -146,11 +149,25 @@ namespace taut
   bool StepControl::is_too_long_for_contacts(const Motion &motion) const
   {
     constexpr double rounding = 1e-9; // of a power of two times Step, and of formulas of dampers
-    for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      if (shortest * length() > longest_step(i, motion) * (1. + rounding) &&
-          is_moving_contact(i, motion))
-        return true;
-    return false;
+    if (!some_longest_steps)
+      return false;
+    bool is_too_long = false;
+    for (std::size_t i = 0; i < longest_steps.size() && !is_too_long; ++i)
+      is_too_long = shortest * length() > longest_step(i, motion) * (1. + rounding) &&
+                    is_moving_contact(i, motion);
+    return constraints.any(is_too_long);
+  }
+
+  /// Whether a contact under way that may need shorter steps than Step is closed.
+  bool StepControl::is_in_short_contact(const Motion &motion) const
+  {
+    if (!some_longest_steps)
+      return false;
+    bool is_closed = false;
+    for (std::size_t i = 0; i < longest_steps.size() && !is_closed; ++i)
+      is_closed = longest_steps[i].shortest() < step && motion.state().multiplier[i] > 0. &&
+                  is_moving_contact(i, motion);
+    return constraints.any(is_closed);
   }
 
   void StepControl::advance_fixed(Motion &motion)
@@ -169,11 +186,9 @@ namespace taut
       solve(motion);
     }
     position += length();
-    bool is_closed = false; // by a contact under way
-    for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      is_closed = is_closed || (longest_steps[i].shortest() < step &&
-                                motion.state().multiplier[i] > 0. && is_moving_contact(i, motion));
-    while (level < n_levels && !is_closed && position % (2 * length()) == 0)
+    if (level == n_levels || is_in_short_contact(motion))
+      return;
+    while (level < n_levels && position % (2 * length()) == 0)
       ++level;
   }
 

@@ -33,9 +33,10 @@ namespace taut
   {
   public:
     /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
-    /// @p longest_steps: for each constraint the longest step in a contact; empty: any.
-    StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
-                std::vector<LongestStep> longest_steps = {});
+    /// @p longest_steps: for each constraint of this rank the longest step in a contact; empty: any.
+    /// All are kept but @p constraints, by reference. Called by all ranks together, as advance() is.
+    StepControl(const Constraints &constraints, const StepParameters &parameters, double step,
+                long n_steps, bool may_halve, std::vector<LongestStep> longest_steps);
 
     bool is_finished() const { return position == end; }
 
@@ -67,12 +68,15 @@ namespace taut
     double longest_step(std::size_t i, const Motion &motion) const;
     bool is_moving_contact(std::size_t i, const Motion &motion) const;
     bool is_too_long_for_contacts(const Motion &motion) const;
+    bool is_in_short_contact(const Motion &motion) const;
     void shorten(unsigned int n_levels_down);
     void advance_fixed(Motion &motion);
     void advance_adaptive(Motion &motion);
 
+    const Constraints &constraints;
     const StepParameters parameters;
     const std::vector<LongestStep> longest_steps;
+    const bool some_longest_steps; ///< of any rank
     const unsigned int n_levels; ///< number of possible halvings of a step
     const double step, shortest; ///< [s]
     const long end;              ///< in shortest steps

@@ -159,7 +159,7 @@ namespace taut
         problem.free_gap[i] += c.restitution * contacts.rates_before_step()[i];
         rebounds = true;
       }
-    if (!rebounds)
+    if (!constraints.any(rebounds))
       return;
     std::vector<double> difference;
     find(difference);
@@ -193,19 +193,17 @@ namespace taut
       double a = 0., b = 0., c = 0.;
     };
     std::vector<Work> works(groups.n_groups());
-    const auto add = [&](const std::size_t i)
+    for (std::size_t i = 0; i < q.size(); ++i)
     {
+      if (!constraints.counts(i))
+        continue;
       Work &own = works[groups.of_constraint(i)];
       own.a += .5 * rebounding[i] * of_rebounding[i];
       own.b += rebounding[i] * (state.rate[i] + of_plain[i]);
       own.c += q[i] * (state.rate[i] + .5 * of_plain[i]);
       if (!constraints.slides(i))
         own.c += p[i] * contacts.increments()[i] / step;
-    };
-    const Constraints::Rows common = constraints.common_rows();
-    for (std::size_t i = 0; i < *common.begin(); ++i)
-      if (!constraints.shared() || constraints.is_own(i))
-        add(i);
+    }
     if (constraints.shared())
     {
       std::vector<double> sums;
@@ -215,7 +213,6 @@ namespace taut
       for (std::size_t g = 0; g < works.size(); ++g)
         works[g] = {sums[3 * g], sums[3 * g + 1], sums[3 * g + 2]};
     }
-    std::for_each(common.begin(), common.end(), add);
     const auto largest_part = [](const Work &of)
     {
       if (of.a + of.b + of.c <= 0. || !(of.a > 0.))

@@ -69,7 +69,7 @@ namespace
   private:
     static taut::Constraints distributed(taut::Constraints constraints)
     {
-      constraints.distribute(taut::Constraints::Distributed::fixed);
+      constraints.distribute(true);
       return constraints;
     }
 

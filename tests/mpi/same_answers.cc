@@ -59,7 +59,7 @@ namespace
             all->insert(all->end(), more.begin(), more.end());
           }
           now.is_distributed =
-              view.constraints.distributed() == taut::Constraints::Distributed::fixed;
+              view.constraints.shared() != nullptr;
           add_displacements(view, is_start ? view.reference.displacement : view.state.U,
                             now.displacement);
           is_start = false;

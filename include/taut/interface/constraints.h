@@ -111,8 +111,8 @@ namespace taut
 
   /**
    * The constraints of a system, with rows in the order cuts, other fixed ones, turning, sliding.
-   * All ranks have all of them, unless they are distributed: each rank then has the cuts, or all
-   * fixed ones, that act on its bodies. All ranks have the other rows, the common ones.
+   * All ranks have all of them, unless they are distributed: each rank then has the fixed ones that
+   * act on its bodies. All ranks have the other rows, the common ones.
    */
   class Constraints
   {
@@ -126,24 +126,15 @@ namespace taut
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints,
                 RowNumbers numbers);
 
-    /// Which rows live with their bodies: cuts, or these and the links and contacts that do not
-    /// slide.
-    enum class Distributed
-    {
-      nothing,
-      cuts,
-      fixed
-    };
-
-    /// Each rank drops those of these rows that do not act on its bodies: for a matrix-free F, and
-    /// without turning constraints. With Distributed::nothing all ranks get all cuts, if those of a
-    /// body are distributed from the start. Throws std::logic_error if called twice. Called by all
+    /// With @p are_distributed, each rank drops the fixed rows that do not act on its bodies: for a
+    /// matrix-free F, and without turning constraints. Otherwise all ranks get all cuts, if those of
+    /// a body are distributed from the start. Throws std::logic_error if called twice. Called by all
     /// ranks together.
-    void distribute(Distributed which);
-    Distributed distributed() const { return which_are_distributed; }
+    void distribute(bool are_distributed);
 
     /// The distributed rows; null: all ranks have all of them.
     const SharedRows *shared() const { return shared_rows.get(); }
+    const Communicator &communicator() const { return structure.communicator(); }
 
     /// Number of rows of this rank, and of all ranks.
     std::size_t size() const { return constraints.size(); }
@@ -157,30 +148,30 @@ namespace taut
 
     /// A sum over the rows that are no cuts has those that each rank counts(), and is then added up
     /// over the ranks. Where all ranks have these rows, each counts them, and nothing is added.
-    bool counts(const std::size_t i) const
-    {
-      return which_are_distributed != Distributed::fixed || is_own(i);
-    }
+    bool counts(const std::size_t i) const { return !shared_rows || is_own(i); }
     void add_up(std::vector<double> &values) const;
     double added_up(double value) const;
 
     /// Values over the rows of the first @p n links of the scene, and of all rows of one of its
     /// contacts of surfaces, on all ranks. Called by all ranks together.
     std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
+    void copy_of_links(const std::vector<double> &values, std::size_t n,
+                       std::vector<double> &to) const;
     std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact) const;
     void copy_of_contact(const std::vector<double> &values, std::size_t contact,
                          std::vector<double> &to) const;
 
-    /// Number of a row among those of all ranks, ascending with the row; and back.
+    /// Number of a row among those of all ranks, ascending with the row, those of cuts first; and
+    /// back, no_link for a row that this rank does not have.
     std::size_t number(std::size_t i) const;
     std::size_t index(std::size_t number) const;
+    std::size_t n_cuts_of_all() const { return n_all_cuts; }
 
     /// The rows with these numbers that this rank has.
     std::vector<std::size_t> here(const std::vector<std::size_t> &numbers) const;
 
     /// Each entry of vectors over the rows becomes the sum of what the ranks that have the row have
-    /// there, by one message. Called by all ranks together, as are the next ones, to
-    /// number_of_any().
+    /// there, by one message. Called by all ranks together, as are the next ones, to gather().
     void sum(std::initializer_list<std::vector<double> *> vectors) const;
     void sum(std::vector<double> &values) const { sum({&values}); }
 
@@ -212,8 +203,21 @@ namespace taut
     }
 
     /// The number of a row that some rank names by its index @p i, the largest such number; no_link
-    /// on other ranks, and if no rank names a row.
+    /// on other ranks, and if no rank names a row. And the lowest such number.
     std::size_t number_of_any(std::size_t i) const;
+    std::size_t number_of_first(std::size_t i) const;
+
+    /// The numbers of all rows that some rank names by their indices, ascending.
+    std::vector<std::size_t> numbers_of(const std::vector<std::size_t> &rows) const;
+
+    /// Each rank found values, and their rows by index, no_link for none. Each value becomes the
+    /// largest one of all ranks. Returns the number of its row, the lowest one of equal values.
+    std::vector<std::size_t> numbers_of_largest(std::vector<double> &values,
+                                                const std::vector<std::size_t> &rows) const;
+
+    /// The values of the rows with some numbers, the same on all ranks.
+    std::vector<double> of_rows(const std::vector<double> &values,
+                                const std::vector<std::size_t> &numbers) const;
 
     /// The values of all rows by their numbers, from those over the rows; and back, in place.
     void gather(const std::vector<double> &values, std::vector<double> &all) const;
@@ -329,8 +333,13 @@ namespace taut
     void largest_forces(const std::vector<double> &N,
                         std::vector<std::array<double, 2>> &result) const;
 
-    /// Row of the constraint of a link in the scene; no_link where this rank does not have it.
-    std::size_t index_of_link(std::size_t link) const { return row_index[link]; }
+    /// Row of the constraint of a link in the scene; no_link where this rank does not have it. And
+    /// how many links have an index on this rank.
+    std::size_t index_of_link(std::size_t link) const
+    {
+      return link < row_index.size() ? row_index[link] : no_link;
+    }
+    std::size_t n_links() const { return row_index.size(); }
 
     /// Path of a constraint in the parameter file, for messages; may be empty.
     const std::string &origin(std::size_t i) const { return constraints[i].origin; }
@@ -361,9 +370,9 @@ namespace taut
     std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
     std::size_t n_cuts = 0, first_turning = 0, first_sliding = 0;
+    std::size_t n_all_cuts = 0;   ///< of all ranks
     std::size_t first_common = 0; ///< of the rows that all ranks have
-    Distributed which_are_distributed = Distributed::nothing;
-    bool is_chosen = false; ///< which rows are distributed
+    bool is_chosen = false;       ///< whether rows are distributed
 
     /// The first number and how many there are, of the rows of a contact of surfaces.
     struct RowsOfContact

@@ -63,7 +63,7 @@ namespace taut
     void add_wires(const Scene &scene, const SceneBodies &structure, unsigned int subdivisions);
     void add_links(const Scene &scene, const SceneBodies &structure);
     void move_ends(const StepView &step);
-    void set_links(const std::vector<double> &of_links, const std::vector<double> &gaps_of_links);
+    void set_links(const LinkValues &links);
     void add_bodies(const Scene &scene, const SceneBodies &structure);
     void write_bodies(const StepView &step);
     void write(const StepView &step, const std::string &name, const VtuFile &file,

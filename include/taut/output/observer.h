@@ -33,14 +33,22 @@ namespace taut
     std::string unit;
   };
 
+  /// Values of the links of a scene, by their indices, the same on all ranks: where a scene is
+  /// distributed, a rank has the rows of its own bodies alone.
+  struct LinkValues
+  {
+    std::vector<double> force; ///< multiplier [N, N m]
+    std::vector<double> gap;   ///< [m, rad]
+  };
+
   /// Data of an accepted step for observers.
   struct StepView
   {
     const Scene &scene;
     const SceneBodies &structure;
 
-    /// Its rows are those of the state. In a run at rest on several ranks, a rank may have those of
-    /// its own bodies alone: Constraints::of_links() and of_contact() have the values of all.
+    /// Its rows are those of the state. On several ranks, a rank may have those of its own bodies
+    /// alone: links, and Constraints::of_contact(), have the values of all.
     const Constraints &constraints;
     const Reference &reference;
     const State &state;
@@ -59,6 +67,8 @@ namespace taut
 
     /// Force of each of the support_points() on its wire [N, N m].
     const std::vector<double> &supports;
+
+    const LinkValues &links;
 
     /// Times of this rank until the step, without the output of the step.
     const StepCosts::Sums &costs;

@@ -50,9 +50,9 @@ namespace taut
     void resume(InputArchive &archive, const StepView &step) override;
 
   private:
-    void add_link(const ConstraintData &constraint);
+    void add_link(const std::string &name, bool may_open, bool rotates, bool slides);
     void add_strip(const std::string &name);
-    void record_link(const StepView &step, std::size_t row);
+    void record_link(const StepView &step, std::size_t link, bool may_open);
     void record_strip(const StepView &step, const SlidingContact &contact);
     void record_links(const StepView &step);
     void record_sliding(const StepView &step);
@@ -65,6 +65,7 @@ namespace taut
     bool is_open = false; ///< on the root
     double interval = 0., next = 0.;
     std::vector<SlidingContact> contacts;
+    std::vector<std::pair<std::size_t, bool>> fixed; ///< links, and whether they may open
     IntervalTable sliding, links, supports, probes;
     std::unique_ptr<TableFile> certificate;
     std::vector<double> values; ///< of one table and step

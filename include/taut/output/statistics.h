@@ -101,6 +101,7 @@ namespace taut
     /// Quantities of a fixed link.
     struct LinkQuantities
     {
+      std::size_t link; ///< index
       std::string name;
       bool unilateral = false, rotates = false;
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
@@ -208,6 +209,7 @@ namespace taut
     std::vector<ContactSum> sums;
     std::vector<LinkQuantities> links;
     std::vector<std::size_t> index_of_link; ///< among them, of each link
+    std::vector<double> of_links;           ///< of one step
     std::vector<ProbeQuantities> probes;
     SupportFigures supports;
     std::vector<double> times;

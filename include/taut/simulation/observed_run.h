@@ -114,6 +114,7 @@ namespace taut
     void each(const Call &call) const;
     void show(const State &state);
     void update_probes(const State &state);
+    void update_links(const State &state);
     StepView view(const State &state) const;
     void print_cost(std::ostream &log) const;
 
@@ -127,6 +128,7 @@ namespace taut
     const std::unique_ptr<Reactions> reactions;
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
+    LinkValues links;
     std::vector<Observer *> observers;
     std::vector<std::unique_ptr<Observer>> owned;
     Checkpoints *checkpoints = nullptr;

@@ -49,6 +49,9 @@ namespace taut
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
+    /// Name and path of a row by its number, of those that the summary() has.
+    Constraints::Label label(std::size_t number) const;
+
     /// Mean of the force of a constraint over the time that its element resolves [N, N m].
     double mean_force(std::size_t i) const { return forces[i].mean; }
 
@@ -58,13 +61,17 @@ namespace taut
     struct Summary : EnergySummary
     {
       double gap = 0.;                      ///< [m, rad]
-      std::size_t gap_constraint = no_link; ///< none: no gap
-      std::size_t drifting_row = no_link;   ///< its gap is the largest above the motion of a step
+      std::size_t gap_constraint = no_link; ///< number; none: no gap
+      std::size_t drifting_row = no_link; ///< number; gap the largest above the motion of a step
+      double drifting_gap = 0.;           ///< [m, rad]
+      bool drift_is_rotation = false;
       double resolution = 1.;               ///< [1]
-      std::size_t resolution_row = no_link;
+      std::size_t resolution_row = no_link; ///< number
       double peak = 0., mean_peak = 0., mean_time = 0.; ///< of this constraint [N, N m; s]
     };
-    Summary summary() const;
+
+    /// Of the rows of all ranks, until the last recorded step.
+    Summary summary() const { return constraints.shared() ? agreed : found_now(); }
 
     /// Parts of the scale above which contact energy is a warning, and an error: a fifth of the 5 %
     /// that a run promises of energies, and twice that.
@@ -123,10 +130,19 @@ namespace taut
       double event_impulse = 0., largest_impulse = 0.;
       double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
       WireEnd end;
+
+      template <typename Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &impulses &impulse &mean &peak &mean_peak &event_impulse;
+        archive &largest_impulse &gap &motion &last &end;
+      }
     };
 
     template <typename Archive>
     void store(Archive &archive);
+    Summary found_now() const;
+    void agree();
     void add_force(Force &force, double t, double dt, double value);
     static void forget_past(Force &force);
     std::string energy_message(const Summary &s) const;
@@ -140,7 +156,11 @@ namespace taut
     const EnergyAccount &energy;
     std::vector<Force> forces;
     bool is_automatic = false, is_adaptive = false;
-    Summary found; ///< gaps
+    double largest_gap = 0.;           ///< of the rows of this rank [m, rad]
+    std::size_t gap_row = no_link;     ///< with it
+    Summary agreed;                    ///< where rows are distributed
+    std::vector<std::size_t> numbers;  ///< of the rows that it has, ascending
+    std::vector<Constraints::Label> labels; ///< of these
   };
 } // namespace taut
 

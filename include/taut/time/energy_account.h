@@ -26,11 +26,11 @@ namespace taut
     double contact_time = 0., step = 0.;       ///< its shortest contact, and the step then [s]
     double motion_energy = 0.;                 ///< gained in large motions [J]
     double relative_motion_energy = 0.;        ///< over the scale [1]
-    std::size_t energy_constraint = no_link;   ///< the worst constraint; none: no energy
+    std::size_t energy_constraint = no_link;   ///< number of the worst one; none: no energy
     double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
     double momentum = 0.;                      ///< error of a contact [N s, N m s]
     double relative_momentum = 0.;             ///< over the impulse of a contact of its group [1]
-    std::size_t momentum_constraint = 0;
+    std::size_t momentum_constraint = no_link; ///< number; none: no error
   };
 
   /**
@@ -56,7 +56,8 @@ namespace taut
    * constraints of the group from closing until both L and the gap come to rest, in the contact of
    * the group with the largest one: light touches say little, and a long rest does not count.
    *
-   * All functions but those that return what is known are called by all ranks together.
+   * All functions but those that return what is known are called by all ranks together. The
+   * summary is made of the rows of all ranks.
    */
   class EnergyAccount
   {
@@ -135,7 +136,7 @@ namespace taut
       double contact_gains = 0., motion_gains = 0.; ///< so far [J]
       double rest_of_step = 0.;                     ///< rounding of motion_gains in a step [J]
       bool moves_far = false;                       ///< has a nonlinear body or a turning row
-      std::size_t first_one_sided = no_link;        ///< unilateral constraint
+      std::size_t first_one_sided = no_link;        ///< number of a unilateral constraint
 
       double scale() const { return kinetic + strain + springs + loads + rest; }
 
@@ -159,9 +160,13 @@ namespace taut
     Contacts contacts_of(std::size_t i) const;
     void measure_scale(const State &state, const BodyVectors &P);
     double energy_of_loads(std::size_t k, const std::vector<double> &P, double step) const;
-    void find_energy(EnergySummary &result) const;
-    void find_momentum(EnergySummary &result) const;
-    double &impulse_of(std::size_t i);
+    void set_first_one_sided();
+    struct WorstOfGroups;
+    WorstOfGroups worst_of_groups() const;
+    void find_energy(const WorstOfGroups &of, EnergySummary &result) const;
+    void find_momentum(const WorstOfGroups &of, EnergySummary &result) const;
+    void add_impulses(const State &state);
+    double impulse_of(std::size_t i) const;
     template <typename Archive>
     void store(Archive &archive);
 
