@@ -298,8 +298,8 @@ namespace taut
       if (is_own(i))
         own.push_back(number(i));
     std::vector<std::size_t> result, of_rank;
-    for (const std::string &text : structure.communicator().gather(
-             archived([&](OutputArchive &archive) { archive << own; })))
+    for (const std::string &text :
+         structure.communicator().gather(archived([&](OutputArchive &archive) { archive << own; })))
     {
       unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
       result.insert(result.end(), of_rank.begin(), of_rank.end());
@@ -308,12 +308,10 @@ namespace taut
     return result;
   }
 
-  std::vector<std::size_t>
-  Constraints::numbers_of_largest(std::vector<double> &values,
-                                  const std::vector<std::size_t> &rows) const
+  void Constraints::take_largest(std::vector<double> &values, std::vector<std::size_t> &rows) const
   {
     if (!shared_rows)
-      return rows;
+      return;
     const std::vector<double> own = values;
     shared_rows->max(values);
     std::vector<double> opposites(rows.size(), none);
@@ -321,10 +319,7 @@ namespace taut
       if (rows[k] < size() && !(own[k] < values[k]))
         opposites[k] = -static_cast<double>(number(rows[k]));
     shared_rows->max(opposites);
-    std::vector<std::size_t> result;
-    for (const double opposite : opposites)
-      result.push_back(lowest(opposite));
-    return result;
+    std::transform(opposites.begin(), opposites.end(), rows.begin(), lowest);
   }
 
   std::vector<double> Constraints::of_rows(const std::vector<double> &values,

@@ -137,12 +137,8 @@ namespace taut
                               const Constraints &constraints, const bool is_at_rest)
   {
     const Communicator &processes = structure.communicator();
-    bool is_nonlinear = false;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      is_nonlinear = is_nonlinear || !structure[k].is_linear();
     const bool has_rows = constraints.n_of_all() > constraints.varying_rows().size();
-    if (processes.size() == 1 || !has_rows || !constraints.turning_rows().empty() ||
-        processes.any(is_nonlinear))
+    if (processes.size() == 1 || !has_rows || !constraints.turning_rows().empty())
       return false;
     if (parameters.form == "matrix-free")
       return true;

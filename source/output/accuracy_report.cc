@@ -359,8 +359,8 @@ namespace taut
       out << "the place of " << body << " is off by " << percent(found->place)
           << " of the largest motion at t = " << found->time << " s";
     else if (found->is_impulse())
-      out << "the impulse of '" << found->name << "' is off by "
-          << percent(found->impulse) << " of the largest";
+      out << "the impulse of '" << found->name << "' is off by " << percent(found->impulse)
+          << " of the largest";
     else
       out << "the energy of what is connected with " << body << " is off by "
           << percent(found->energy) << " of the largest";

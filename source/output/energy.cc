@@ -345,9 +345,9 @@ namespace taut
     for (std::size_t i = 0; i < step.constraints.size(); ++i)
       if (step.constraints.is_own(i))
         add_row(step, i, share);
-    double sums[] = {share.kinetic,  share.strain,  share.loads,       share.supports,
-                     share.contacts, share.damping, share.algorithmic, share.links,
-                     share.link_dampers};
+    double sums[] = {share.kinetic,     share.strain,   share.loads,
+                     share.supports,    share.contacts, share.damping,
+                     share.algorithmic, share.links,    share.link_dampers};
     step.structure.communicator().sum(sums, std::size(sums));
     total.algorithmic += sums[6] - (sums[0] - total.kinetic) + step.report.impulse_work;
     total.kinetic = sums[0];

@@ -13,8 +13,7 @@ namespace taut
     // Those of a System are known by their rows alone.
     for (std::size_t i = 0; i < rows.size() && !rows.slides(i); ++i)
       if (rows[i].is_link() && rows[i].link >= scene.links.size())
-        result.push_back(
-            {rows[i].link, rows[i].name, rows[i].cone.may_open(), rows[i].rotational});
+        result.push_back({rows[i].link, rows[i].name, rows[i].cone.may_open(), rows[i].rotational});
     return result;
   }
 } // namespace taut

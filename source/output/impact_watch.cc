@@ -104,8 +104,8 @@ namespace taut
     if (!is_start)
     {
       const std::vector<std::size_t> all = struck(step);
-      const bool some = step.constraints.shared() ? step.constraints.any(!all.empty())
-                                                  : all.size() > 1;
+      const bool some =
+          step.constraints.shared() ? step.constraints.any(!all.empty()) : all.size() > 1;
       const std::vector<std::size_t> together =
           step.constraints.numbers_of(some ? sharing(step, all) : std::vector<std::size_t>());
       if (!together.empty() && n_steps++ == 0)

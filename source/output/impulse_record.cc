@@ -140,9 +140,9 @@ namespace taut
     }
     const auto n_of_all =
         static_cast<std::size_t>(constraints.added_up(static_cast<double>(items.size())));
-    most_ends =
-        std::clamp(most_numbers / std::max<std::size_t>(1, n_of_all), fewest_ends, most_ends_of_few) /
-        2 * 2;
+    most_ends = std::clamp(most_numbers / std::max<std::size_t>(1, n_of_all), fewest_ends,
+                           most_ends_of_few) /
+                2 * 2;
     impulse.assign(items.size(), 0.);
     impulses.reserve(std::min((most_ends + 1) * items.size(), most_numbers));
     impulses = impulse;
@@ -288,8 +288,8 @@ namespace taut
     std::vector<double> differences;
     for (const double own : {largest, at_end}) // what is no number is largest of all
       differences.push_back(own == own ? own : std::numeric_limits<double>::infinity());
-    const std::vector<std::size_t> numbers =
-        constraints.numbers_of_largest(differences, {row, row_at_end});
+    std::vector<std::size_t> numbers = {row, row_at_end};
+    constraints.take_largest(differences, numbers);
     const auto name = [&](const std::size_t number)
     {
       const std::vector<Constraints::Label> labels =

@@ -87,8 +87,8 @@ namespace taut
     };
     const Constraints &constraints;
     const std::size_t n_groups;
-    std::vector<std::size_t> rows; ///< all but cuts
-    std::vector<Item> items;       ///< that this rank counts
+    std::vector<std::size_t> rows;    ///< all but cuts
+    std::vector<Item> items;          ///< that this rank counts
     std::vector<std::size_t> item_of; ///< of each of the rows; no_link: of another rank
     std::size_t most_ends;            ///< that are kept; even
 

@@ -28,8 +28,8 @@ namespace taut
   {
     links.clear();
     for (std::size_t l = 0; l < scene.links.size(); ++l)
-      links.push_back({scene.links[l].name, step.links.force[l], step.links.gap[l],
-                       scene.links[l].rotational});
+      links.push_back(
+          {scene.links[l].name, step.links.force[l], step.links.gap[l], scene.links[l].rotational});
     const std::vector<Structure::Body> &all = step.structure.all_bodies();
     std::vector<double> of_bodies(all.size(), 0.);
     for (std::size_t k = 0; k < step.structure.size(); ++k)

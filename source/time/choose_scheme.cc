@@ -211,8 +211,7 @@ namespace taut
         : resolution.is_unresolved_rigid()
             ? "unilateral link '" + of_unresolved +
                   "' acts as rigid: it is stiffer than the bodies in one step"
-            : "a step does not resolve the impacts at unilateral link '" +
-                  of_unresolved + "'";
+            : "a step does not resolve the impacts at unilateral link '" + of_unresolved + "'";
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty() && !turning.empty())
       throw EntryError("Time/Scheme",

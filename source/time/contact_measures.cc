@@ -101,9 +101,9 @@ namespace taut
       return;
     agreed = found_now();
     std::vector<std::size_t> named;
-    for (const std::size_t number : {agreed.energy_constraint, agreed.momentum_constraint,
-                                     agreed.gap_constraint, agreed.drifting_row,
-                                     agreed.resolution_row})
+    for (const std::size_t number :
+         {agreed.energy_constraint, agreed.momentum_constraint, agreed.gap_constraint,
+          agreed.drifting_row, agreed.resolution_row})
       if (number != no_link)
         named.push_back(number);
     std::sort(named.begin(), named.end());
@@ -141,10 +141,11 @@ namespace taut
       forget_past(force);
     store_of_rows(archive, constraints, forces);
     std::vector<double> gap = {largest_gap};
-    std::size_t number = constraints.numbers_of_largest(gap, {gap_row}).front();
-    archive &gap.front() & number;
+    std::vector<std::size_t> row = {gap_row};
+    constraints.take_largest(gap, row);
+    archive &gap.front() & row.front();
     largest_gap = gap.front();
-    gap_row = constraints.index(number);
+    gap_row = constraints.index(row.front());
   }
 
   void ContactMeasures::save(OutputArchive &archive)
@@ -216,14 +217,14 @@ namespace taut
     Summary result;
     static_cast<EnergySummary &>(result) = energy.summary();
     // The largest gap, that above the motion of a step, and the largest resolution.
-    std::vector<double> largest = {largest_gap, 0., 1.};
-    std::vector<std::size_t> row = {gap_row, no_link, no_link};
+    largest = {largest_gap, 0., 1.};
+    number = {gap_row, no_link, no_link};
     const auto raise = [&](const std::size_t of, const double value, const std::size_t i)
     {
       if (!(value > largest[of]))
         return;
       largest[of] = value;
-      row[of] = i;
+      number[of] = i;
     };
     for (const std::size_t i : constraints.rows_but_cuts())
     {
@@ -234,14 +235,14 @@ namespace taut
       if (force.mean_peak > 0.)
         raise(2, force.peak / force.mean_peak, i);
     }
-    const std::vector<std::size_t> number = constraints.numbers_of_largest(largest, row);
+    constraints.take_largest(largest, number);
     result.gap = largest[0];
     result.gap_constraint = number[0];
     result.drifting_gap = largest[1];
     result.drifting_row = number[1];
     result.resolution = largest[2];
     result.resolution_row = number[2];
-    std::vector<double> of_rows(4, 0.);
+    of_rows.assign(4, 0.);
     const auto is_counted = [&](const std::size_t i)
     { return i < forces.size() && constraints.counts(i); };
     if (const std::size_t i = constraints.index(number[1]); is_counted(i))

@@ -20,8 +20,8 @@ namespace taut
         << s.relative_energy << " of the energy of what they are connected with, "
         << (took ? "which neither their springs nor their dampers account for"
                  : "where they can only take it")
-        << ": most at '" << label(s.energy_constraint).name
-        << "' between t = " << s.energy_begin << " and " << s.energy_end << " s";
+        << ": most at '" << label(s.energy_constraint).name << "' between t = " << s.energy_begin
+        << " and " << s.energy_end << " s";
     if (s.step > 0.)
       out << "; its shortest contact lasts " << s.contact_time << " s, " << s.contact_time / s.step
           << " steps";

@@ -235,8 +235,8 @@ namespace taut
         set_ratio(number, sum);
     }
 
-    /// Share of a single constraint of this rank, or of none, with F of a short step for f_ii / m of
-    /// its joined bodies.
+    /// Share of a single constraint of this rank, or of none, with F of a short step for f_ii / m
+    /// of its joined bodies.
     void find_share(const std::size_t i, const double flexibility)
     {
       double share = 0.;

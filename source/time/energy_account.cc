@@ -78,7 +78,7 @@ namespace taut
         first[g] = i;
         has_one[g] = 1.;
       }
-    first = constraints.numbers_of_largest(has_one, first);
+    constraints.take_largest(has_one, first);
     for (std::size_t g = 0; g < groups.size(); ++g)
       groups[g].first_one_sided = first[g];
   }
@@ -414,32 +414,10 @@ namespace taut
       rows[i].noise = std::max(rows[i].noise, rounding_of_gaps * terms[i]);
   }
 
-  /// Of each group, over all ranks.
-  struct EnergyAccount::WorstOfGroups
-  {
-    /// Largest energy of a constraint, momentum error, and impulse of a contact, in turn.
-    std::vector<double> largest;
-    std::vector<std::size_t> number; ///< of the constraint; no_link: none
-    std::vector<double> sums;        ///< energy given and taken, in turn [J]
-
-    static constexpr std::size_t n_of_largest = 3;
-    enum Of : std::size_t
-    {
-      energy,
-      momentum,
-      impulse
-    };
-    double of(const std::size_t g, const Of of) const { return largest[n_of_largest * g + of]; }
-    std::size_t number_of(const std::size_t g, const Of of) const
-    {
-      return number[n_of_largest * g + of];
-    }
-  };
-
-  EnergyAccount::WorstOfGroups EnergyAccount::worst_of_groups() const
+  void EnergyAccount::find_worst() const
   {
     using Worst = WorstOfGroups;
-    Worst result;
+    Worst &result = worst;
     result.largest.assign(Worst::n_of_largest * groups.size(), 0.);
     result.number.assign(Worst::n_of_largest * groups.size(), no_link);
     result.sums.assign(2 * groups.size(), 0.);
@@ -465,22 +443,21 @@ namespace taut
       result.sums[2 * g] += contacts.given;
       result.sums[2 * g + 1] += contacts.taken;
     }
-    result.number = constraints.numbers_of_largest(result.largest, result.number);
+    constraints.take_largest(result.largest, result.number);
     constraints.add_up(result.sums);
-    return result;
   }
 
   EnergySummary EnergyAccount::summary() const
   {
-    const WorstOfGroups worst = worst_of_groups();
+    find_worst();
     EnergySummary result;
-    find_energy(worst, result);
-    find_momentum(worst, result);
+    find_energy(result);
+    find_momentum(result);
     return result;
   }
 
   /// Finds the group with most contact energy, and its worst constraint.
-  void EnergyAccount::find_energy(const WorstOfGroups &worst, EnergySummary &result) const
+  void EnergyAccount::find_energy(EnergySummary &result) const
   {
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
@@ -504,7 +481,8 @@ namespace taut
     }
     if (result.energy_constraint == no_link)
       return;
-    std::vector<double> of_worst(4, 0.);
+    std::vector<double> &of_worst = worst.contact;
+    of_worst.assign(4, 0.);
     if (const std::size_t i = constraints.index(result.energy_constraint);
         i < rows.size() && constraints.counts(i))
     {
@@ -518,7 +496,7 @@ namespace taut
     result.step = of_worst[3];
   }
 
-  void EnergyAccount::find_momentum(const WorstOfGroups &worst, EnergySummary &result) const
+  void EnergyAccount::find_momentum(EnergySummary &result) const
   {
     for (std::size_t g = 0; g < groups.size(); ++g)
       if (const double impulse = worst.of(g, WorstOfGroups::impulse),

@@ -84,9 +84,9 @@ namespace taut
     std::vector<std::size_t> elastic, moving_elastic; ///< unilateral constraints
     std::vector<std::size_t> softened;                ///< in set_up()
     bool has_laws = false, some_elastic = false;      ///< on any rank
-    std::vector<double> flexibility, of_mass; ///< F_ii and f_ii of elastic constraints
-    std::vector<double> relative;             ///< (S / (alpha F_ii))^2 of each constraint
-    std::vector<double> compliances;          ///< f_ii times relative
+    std::vector<double> flexibility, of_mass;         ///< F_ii and f_ii of elastic constraints
+    std::vector<double> relative;                     ///< (S / (alpha F_ii))^2 of each constraint
+    std::vector<double> compliances;                  ///< f_ii times relative
   };
 } // namespace taut
 

@@ -201,6 +201,7 @@ namespace taut
         bool touches = false;
         for (std::size_t i = 0; i < constraints.size(); ++i)
           touches = touches || (constraints[i].cone.may_open() && state.multiplier[i] > 0.);
+        touches = constraints.any(touches);
         return (touches || !processes.any(!are_in_tension(structure, state.displacement))) &&
                !processes.any(!are_indifferent(structure, state.displacement));
       }
@@ -317,16 +318,18 @@ namespace taut
                        std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
               }
             });
-        structure.communicator().sum(&sum, 1);
         const std::vector<double> gaps = turning.gaps(U);
         for (std::size_t i = 0; i < constraints.size(); ++i)
         {
+          if (!constraints.is_own(i))
+            continue;
           const double gap = gaps[i];
           if (constraints[i].spring.is_rigid())
             sum -= N[i] * gap;
           else if (constraints[i].cone.is_closed(-gap))
             sum += constraints[i].spring.energy(gap);
         }
+        structure.communicator().sum(&sum, 1);
         return sum;
       }
 

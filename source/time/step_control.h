@@ -33,8 +33,9 @@ namespace taut
   {
   public:
     /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
-    /// @p longest_steps: for each constraint of this rank the longest step in a contact; empty: any.
-    /// All are kept but @p constraints, by reference. Called by all ranks together, as advance() is.
+    /// @p longest_steps: for each constraint of this rank the longest step in a contact; empty:
+    /// any. All are kept but @p constraints, by reference. Called by all ranks together, as
+    /// advance() is.
     StepControl(const Constraints &constraints, const StepParameters &parameters, double step,
                 long n_steps, bool may_halve, std::vector<LongestStep> longest_steps);
 
@@ -77,9 +78,9 @@ namespace taut
     const StepParameters parameters;
     const std::vector<LongestStep> longest_steps;
     const bool some_longest_steps; ///< of any rank
-    const unsigned int n_levels; ///< number of possible halvings of a step
-    const double step, shortest; ///< [s]
-    const long end;              ///< in shortest steps
+    const unsigned int n_levels;   ///< number of possible halvings of a step
+    const double step, shortest;   ///< [s]
+    const long end;                ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
     std::vector<double> last_open; ///< time when each constraint was open [s]

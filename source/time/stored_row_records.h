@@ -11,8 +11,8 @@
 
 namespace taut
 {
-  /// Stores what @p records have of each row but cuts, of all rows on any number of ranks. Called by
-  /// all ranks together.
+  /// Stores what @p records have of each row but cuts, of all rows on any number of ranks. Called
+  /// by all ranks together.
   template <typename Record>
   void store_of_rows(OutputArchive &archive, const Constraints &constraints,
                      const std::vector<Record> &records)

@@ -29,6 +29,10 @@ namespace
         1e-9);
     EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-9);
     EXPECT_LT(relative_difference(one.probes, many.probes), 1e-9);
+    const std::string matrix_free = "Solver/Interface operator=matrix-free";
+    EXPECT_EQ(many.is_distributed,
+              taut::Communicator(MPI_COMM_WORLD).size() > 1 &&
+                  std::find(overrides.begin(), overrides.end(), matrix_free) != overrides.end());
     const std::string slack = lines_with("Slack:", one.log);
     EXPECT_EQ(slack, lines_with("Slack:", many.log));
     EXPECT_EQ(!slack.empty(), goes_slack);
@@ -37,13 +41,16 @@ namespace
 
 // Claim: nonlinear cables hang and move on any number of ranks as on one: all displacements, forces
 // and probes to 1e-9 of the largest. Expected: the run of one process. Guys that go slack, a net, a
-// cable that meets a mass, one that lies on a floor, two that ropes join which turn.
+// cable that meets a mass, one that lies on a floor, two that ropes join which turn; with joints on
+// the ranks of their bodies, too.
 TEST(Ranks, cables_are_the_same)
 {
   expect_same("swinging_load_on_guys", {"Time/End=1.4"}, true);
   expect_same("net_of_cables");
   expect_same("pendulum_cable", {"Time/End=0.5"});
   expect_same("cable_on_floor", {"Time/End=0.3"});
+  for (const char *const scene : {"net_of_cables", "pendulum_cable"})
+    expect_same(scene, {"Time/End=0.3", "Solver/Interface operator=matrix-free"});
   expect_same("cable_in_wind");
   expect_same("line_with_droppers", {"Time/End=0.25"}); // later catches amplify rounding
   expect_same("line_with_droppers",

@@ -42,6 +42,7 @@ namespace verification
   struct NodeRecord
   {
     std::vector<double> force, gap, displacement, probes;
+    bool is_distributed = false; ///< links and contacts live with their bodies
     std::string log;
   };
 
@@ -65,6 +66,7 @@ namespace verification
             for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
               add(view.constraints.of_contact(*values, c));
           }
+          result.is_distributed = view.constraints.shared() != nullptr;
           result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
           add_displacements(view, n_nodes, result.displacement);
         });

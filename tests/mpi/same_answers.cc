@@ -58,8 +58,7 @@ namespace
                 view.constraints.of_links(*values, view.scene.links.size());
             all->insert(all->end(), more.begin(), more.end());
           }
-          now.is_distributed =
-              view.constraints.shared() != nullptr;
+          now.is_distributed = view.constraints.shared() != nullptr;
           add_displacements(view, is_start ? view.reference.displacement : view.state.U,
                             now.displacement);
           is_start = false;
@@ -197,6 +196,9 @@ namespace
     figure(where + "rounding unit times condition", bound);
   }
 
+  const std::string matrix_free = "Solver/Interface operator=matrix-free";
+
+  /// Links live with their bodies where F is matrix-free.
   void expect_same(const std::string &title, const double step, const Overrides &overrides,
                    const std::vector<unsigned int> &numbers, const Overrides &for_cut_runs = {})
   {
@@ -212,6 +214,8 @@ namespace
       const std::string where = title + ", " + std::to_string(n) + " parts, " + ranks_and_comma();
       SCOPED_TRACE(where);
       const Records many = record(scene, cut, world());
+      EXPECT_EQ(many.motion.is_distributed,
+                world().size() > 1 && std::find(cut.begin(), cut.end(), matrix_free) != cut.end());
       expect_same(where + "rest, ", one.rest, many.rest, static_bound);
       expect_same(where + "motion, ", one.motion, many.motion, bound);
     }
@@ -345,6 +349,7 @@ TEST(Ranks, laws_of_links_are_the_same)
                                 {end, "Partition/Number of substructures=5",
                                  "Solver/Interface operator=" + form},
                                 world());
+    EXPECT_EQ(many.motion.is_distributed, world().size() > 1 && form == "matrix-free");
     expect_same(where + "rest, ", one.rest, many.rest, 0.);
     expect_same(where + "motion, ", one.motion, many.motion, 0.);
   }

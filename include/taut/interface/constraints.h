@@ -127,9 +127,9 @@ namespace taut
                 RowNumbers numbers);
 
     /// With @p are_distributed, each rank drops the fixed rows that do not act on its bodies: for a
-    /// matrix-free F, and without turning constraints. Otherwise all ranks get all cuts, if those of
-    /// a body are distributed from the start. Throws std::logic_error if called twice. Called by all
-    /// ranks together.
+    /// matrix-free F, and without turning constraints. Otherwise all ranks get all cuts, if those
+    /// of a body are distributed from the start. Throws std::logic_error if called twice. Called by
+    /// all ranks together.
     void distribute(bool are_distributed);
 
     /// The distributed rows; null: all ranks have all of them.
@@ -211,9 +211,8 @@ namespace taut
     std::vector<std::size_t> numbers_of(const std::vector<std::size_t> &rows) const;
 
     /// Each rank found values, and their rows by index, no_link for none. Each value becomes the
-    /// largest one of all ranks. Returns the number of its row, the lowest one of equal values.
-    std::vector<std::size_t> numbers_of_largest(std::vector<double> &values,
-                                                const std::vector<std::size_t> &rows) const;
+    /// largest one of all ranks, and the row its number, the lowest one of equal values.
+    void take_largest(std::vector<double> &values, std::vector<std::size_t> &rows) const;
 
     /// The values of the rows with some numbers, the same on all ranks.
     std::vector<double> of_rows(const std::vector<double> &values,

@@ -62,11 +62,11 @@ namespace taut
     {
       double gap = 0.;                      ///< [m, rad]
       std::size_t gap_constraint = no_link; ///< number; none: no gap
-      std::size_t drifting_row = no_link; ///< number; gap the largest above the motion of a step
-      double drifting_gap = 0.;           ///< [m, rad]
+      std::size_t drifting_row = no_link;   ///< number; gap the largest above the motion of a step
+      double drifting_gap = 0.;             ///< [m, rad]
       bool drift_is_rotation = false;
-      double resolution = 1.;               ///< [1]
-      std::size_t resolution_row = no_link; ///< number
+      double resolution = 1.;                           ///< [1]
+      std::size_t resolution_row = no_link;             ///< number
       double peak = 0., mean_peak = 0., mean_time = 0.; ///< of this constraint [N, N m; s]
     };
 
@@ -156,11 +156,13 @@ namespace taut
     const EnergyAccount &energy;
     std::vector<Force> forces;
     bool is_automatic = false, is_adaptive = false;
-    double largest_gap = 0.;           ///< of the rows of this rank [m, rad]
-    std::size_t gap_row = no_link;     ///< with it
-    Summary agreed;                    ///< where rows are distributed
-    std::vector<std::size_t> numbers;  ///< of the rows that it has, ascending
-    std::vector<Constraints::Label> labels; ///< of these
+    double largest_gap = 0.;                      ///< of the rows of this rank [m, rad]
+    std::size_t gap_row = no_link;                ///< with it
+    Summary agreed;                               ///< where rows are distributed
+    std::vector<std::size_t> numbers;             ///< of the rows that it has, ascending
+    std::vector<Constraints::Label> labels;       ///< of these
+    mutable std::vector<double> largest, of_rows; ///< in found_now()
+    mutable std::vector<std::size_t> number;
   };
 } // namespace taut
 

@@ -147,6 +147,29 @@ namespace taut
       }
     };
 
+    /// Of each group, over all ranks.
+    struct WorstOfGroups
+    {
+      /// Largest energy of a constraint, momentum error, and impulse of a contact, in turn.
+      std::vector<double> largest;
+      std::vector<std::size_t> number; ///< of the constraint; no_link: none
+      std::vector<double> sums;        ///< energy given and taken, in turn [J]
+      std::vector<double> contact;     ///< of the worst constraint: begin, end, shortest, step [s]
+
+      static constexpr std::size_t n_of_largest = 3;
+      enum Of : std::size_t
+      {
+        energy,
+        momentum,
+        impulse
+      };
+      double of(const std::size_t g, const Of of) const { return largest[n_of_largest * g + of]; }
+      std::size_t number_of(const std::size_t g, const Of of) const
+      {
+        return number[n_of_largest * g + of];
+      }
+    };
+
     void set_rest(const State &start);
     void add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups);
     void add_surplus(NonlinearStep &nonlinear, double theta, const State &state, double *of_groups);
@@ -161,10 +184,9 @@ namespace taut
     void measure_scale(const State &state, const BodyVectors &P);
     double energy_of_loads(std::size_t k, const std::vector<double> &P, double step) const;
     void set_first_one_sided();
-    struct WorstOfGroups;
-    WorstOfGroups worst_of_groups() const;
-    void find_energy(const WorstOfGroups &of, EnergySummary &result) const;
-    void find_momentum(const WorstOfGroups &of, EnergySummary &result) const;
+    void find_worst() const;
+    void find_energy(EnergySummary &result) const;
+    void find_momentum(EnergySummary &result) const;
     void add_impulses(const State &state);
     double impulse_of(std::size_t i) const;
     template <typename Archive>
@@ -181,6 +203,7 @@ namespace taut
     long n_steps = 0;
     std::vector<double> kinetic;                    ///< of the groups
     std::vector<double> sums, springs, work, terms; ///< of one call
+    mutable WorstOfGroups worst;                    ///< in summary()
   };
 } // namespace taut
 

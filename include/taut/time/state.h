@@ -22,7 +22,7 @@ namespace taut
     std::vector<double> gap;
   };
 
-  /// What the rows of the constraints have at one time, equal on all ranks.
+  /// What the rows of the constraints have at one time, the same on all ranks that have a row.
   struct RowStates
   {
     std::vector<double> multiplier;          ///< N, or its mean over the step [N, N m]
