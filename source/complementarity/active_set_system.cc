@@ -52,6 +52,18 @@ namespace taut
     {
       return matrix.has_null_space_solver() && !problem.has_resistance();
     }
+
+    /// Solves of others are exact, whatever the search has asked for.
+    class RoughSolves
+    {
+    public:
+      explicit RoughSolves(ComplementarityOperator &matrix) : matrix(matrix) {}
+      ~RoughSolves() { matrix.set_tolerance(0.); }
+      void set_tolerance(const double tolerance) { matrix.set_tolerance(tolerance); }
+
+    private:
+      ComplementarityOperator &matrix;
+    };
   } // namespace
 
   ActiveSetSystem::Outcome ActiveSetSystem::solve(const MixedComplementarityProblem &problem,
@@ -69,10 +81,11 @@ namespace taut
     const double part = is_exact ? exact_part : rough_part;
     const auto largest = [&] { return problem.max(largest_gap(set, solution.gap, terms)); };
     Sizes now = {matrix.is_iterative() ? largest() : 1., 0.};
+    RoughSolves solves(matrix);
     bool is_solved = false;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
-      matrix.set_tolerance(part * tolerance / std::max(now.gap, tolerance));
+      solves.set_tolerance(part * tolerance / std::max(now.gap, tolerance));
       if (is_solved)
       {
         before = solution;

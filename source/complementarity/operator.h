@@ -79,7 +79,8 @@ namespace taut
     virtual bool is_iterative() const { return false; }
 
     /// Largest residual of the solves to come, in rows scaled to F_ii = 1 and relative to the
-    /// largest entry of right-hand side or solution. Without effect where is_iterative() is false.
+    /// largest entry of right-hand side or solution; 0: the smallest that rounding allows, as at
+    /// first. Without effect where is_iterative() is false.
     virtual void set_tolerance(double /*tolerance*/) {}
   };
 } // namespace taut

@@ -23,7 +23,7 @@ namespace
     void apply(const Vector &x, Vector &y) const override { F.apply(x, y); }
     void apply_absolute(const Vector &x, Vector &y) const override { F.apply_absolute(x, y); }
     bool is_iterative() const override { return true; }
-    void set_tolerance(double value) override { tolerance = value; }
+    void set_tolerance(double value) override { tolerance = std::max(value, smallest); }
 
     bool solve(const std::vector<std::size_t> &set, const Vector &rhs, double shift,
                Vector &x) override
@@ -57,12 +57,14 @@ namespace
       return true;
     }
 
+    static constexpr double smallest = 1e-14;
     std::vector<double> tolerances;
     int n_iterations = 0;
+    double tolerance_to_come() const { return tolerance; }
 
   private:
     const taut::DenseOperator &F;
-    double tolerance = 1e-14;
+    double tolerance = smallest;
   };
 
   /// A string of n nodes over stops at all of them, F its flexibility, pressed down at both ends
@@ -105,9 +107,10 @@ TEST(InexactSolves, end_at_the_answer_of_direct_ones_with_less_work)
   taut::ComplementaritySolver always_exact("semismooth Newton", options);
   always_exact.solve(string.problem, exact);
   EXPECT_LT(rough.n_iterations, .7 * exact.n_iterations);
-  // Roughly first, exactly last.
+  // Roughly first, exactly last, and so do those that come after the search.
   EXPECT_GE(rough.tolerances.front(), 1e-6);
   EXPECT_LE(*std::min_element(rough.tolerances.begin(), rough.tolerances.end()), 1e-8);
+  EXPECT_EQ(rough.tolerance_to_come(), IteratingOperator::smallest);
 }
 
 TEST(InexactSolves, start_from_the_last_multipliers)
