@@ -22,7 +22,7 @@ namespace taut
   namespace
   {
     /// First line of the file. The version changes with the stored data.
-    const std::string first_line = "Taut checkpoint, version 13\n";
+    const std::string first_line = "Taut checkpoint, version 14\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
     /// What follows are blocks: a line with the number of the body, the length of its data and
