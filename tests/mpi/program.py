@@ -20,8 +20,8 @@ from taut_plot_solids import read_arrays
 
 arguments = parse(__doc__, "program", "mpiexec", "prm", ranks=(2, "of the scenes; words and errors are those of two ranks"))
 
-# Times of the computer, residuals of rounding, where mpirun has its say.
-VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output|us a step|"
+# Times and work of the computer, what may be rounding alone, where mpirun has its say.
+VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^Contacts: energy|^Conjugate gradients|^\s*\d+ %|with output|without output|us a step|"
                       r"^  [a-zA-Z ]+ \d+\.\d\d +\d+\.\d %$")
 SHORT = {  # what makes a long scene short
     "bar_on_two_cables": ["Time/End=1.5"],
