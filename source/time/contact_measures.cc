@@ -69,7 +69,8 @@ namespace taut
     MatrixEntries of_ranks;
     const Communicator &processes = structure.communicator();
     for (std::size_t i = 0; i < highest.size(); ++i)
-      of_ranks.add(constraints.number(i), processes.rank(), highest[i]);
+      if (highest[i] > 0.)
+        of_ranks.add(constraints.number(i), processes.rank(), highest[i]);
     constraints.sum_entries(of_ranks, processes.size());
     for (std::size_t e = 0; e < of_ranks.size(); ++e)
     {
