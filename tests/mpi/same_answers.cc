@@ -390,6 +390,81 @@ TEST(Ranks, links_that_live_with_their_bodies_are_the_same)
   }
 }
 
+namespace
+{
+  /// Two strings, one under the other, that rigid droppers join; the upper one is lifted, and
+  /// catches the lower one.
+  const std::string caught_string = R"(Gravity = 0, -9.81; Start = equilibrium
+Wire upper: From = 0, 1; To = 20, 1; Components = string; Mass per length = 1; Tension = 1e4;
+  Element size = 0.5
+Wire lower: To = 20, 0; Components = string; Mass per length = 1; Tension = 2e3; Element size = 0.5
+Support of upper: Wire = upper; Positions = 0, 20
+Support of lower: Wire = lower; Positions = 0, 20
+Link dropper: Type = dropper; From = upper @ 2:3:17; To = lower @ 2:3:17; Direction = 0, -1
+Load blow: On = lower @ 11; Direction = 0, 1; Magnitude = 400*sin(60*t)
+Time: Step = 1e-3; End = 0.15; Scheme = generalised-alpha; Allow unsuitable scheme = true
+)";
+
+  struct Measures
+  {
+    std::vector<double> values;
+    std::string worst; ///< name of the constraint with most energy
+    std::string steps; ///< what the log says of the error of the steps
+  };
+
+  Measures measures_of(const Overrides &overrides, const taut::Communicator &processes)
+  {
+    Measures result;
+    Session session(caught_string,
+                    overrides + Overrides{"Time/Check steps=yes", "Time/Allow energy gain=true",
+                                          "Solver/Interface operator=matrix-free"},
+                    processes);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          const taut::ContactMeasures::Summary found = view.measures.summary();
+          result.values = {found.relative_energy,
+                           found.taken,
+                           found.scale,
+                           found.energy_begin,
+                           found.energy_end,
+                           found.contact_time,
+                           found.relative_momentum,
+                           found.momentum,
+                           found.resolution,
+                           found.peak,
+                           found.mean_peak,
+                           found.mean_time};
+          result.worst = view.measures.label(found.energy_constraint).name;
+        });
+    std::smatch line;
+    const std::string log = session.log();
+    if (std::regex_search(log, line, std::regex("Steps: .*")))
+      result.steps = line.str();
+    return result;
+  }
+} // namespace
+
+// Claim: energy, momentum and peaks of contacts, whose rows are on one or two ranks each, and the
+// error of steps are those of all ranks. Expected: those of one process, of a scheme that gives
+// energy to droppers that catch.
+TEST(Ranks, measures_of_contacts_are_the_same)
+{
+  for (const unsigned int n : {2u, 5u})
+  {
+    const Overrides parts = {"Partition/Number of substructures=" + std::to_string(n)};
+    const Measures one = measures_of(parts, taut::Communicator()),
+                   many = measures_of(parts, world());
+    ASSERT_GT(one.values.front(), taut::ContactMeasures::suspicious_energy);
+    for (std::size_t i = 0; i < one.values.size(); ++i)
+      EXPECT_NEAR(many.values[i], one.values[i], 1e-6 * std::fabs(one.values[i])) << i;
+    EXPECT_EQ(many.worst, one.worst);
+    if (world().is_root())
+      EXPECT_EQ(many.steps, one.steps);
+    EXPECT_FALSE(one.steps.empty());
+  }
+}
+
 // Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:
 // as above.
 TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
