@@ -29,31 +29,6 @@ namespace taut
       return largest;
     }
 
-    /// Part of the largest multiplier, in rows scaled to F_ii = 1, below which those of an
-    /// iteration are the rounding of a correction of rounding, 1e-32, and not what a load asks for.
-    constexpr double rounding_of_corrections = 1e-26;
-
-    /// Sets multipliers that are rounding to zero: rows without loads have none of their own.
-    bool drop_rounding(const MixedComplementarityProblem &problem,
-                       const ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
-                       std::vector<double> &multiplier)
-    {
-      const auto size = [&](const std::size_t i)
-      { return std::abs(multiplier[i]) * std::sqrt(std::max(0., matrix.diagonal(i))); };
-      double largest = 0.;
-      for (const std::size_t i : set)
-        largest = std::max(largest, size(i));
-      largest = problem.max(largest);
-      bool has_dropped = false;
-      for (const std::size_t i : set)
-        if (multiplier[i] != 0. && size(i) < rounding_of_corrections * largest)
-        {
-          multiplier[i] = 0.;
-          has_dropped = true;
-        }
-      return problem.any(has_dropped);
-    }
-
     /// Largest F_ii |x_i| on the set.
     double largest_step(const std::vector<std::size_t> &set, const ComplementarityOperator &matrix,
                         const std::vector<double> &step)
@@ -144,9 +119,6 @@ namespace taut
     }
     if (is_solved && problem.n_null_space() > 0 && !solves_with_null_space(problem, matrix))
       balance(problem, matrix, set, solution);
-    if (is_solved && matrix.is_iterative() &&
-        drop_rounding(problem, matrix, set, solution.multiplier))
-      gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
     return is_solved ? Outcome::solved : Outcome::unsettled;
   }
 

@@ -139,28 +139,6 @@ namespace taut
       closed.assign(problem.size(), 0);
   }
 
-  namespace
-  {
-    /// Part of the largest gap, in rows scaled to F_ii = 1, below which an iteration does not
-    /// resolve one: solved to 1e-12 of its terms, a tenth of the rounding of the largest gap. What
-    /// has no loads there is rounding alone.
-    constexpr double not_resolved = 1e-5;
-
-    /// Conjugate gradients round in all rows with the largest one.
-    void add_rounding_of_iterations(const MixedComplementarityProblem &problem,
-                                    const ComplementarityOperator &matrix,
-                                    std::vector<double> &terms)
-    {
-      double largest = 0.;
-      for (std::size_t i = 0; i < terms.size(); ++i)
-        if (matrix.diagonal(i) > 0.)
-          largest = std::max(largest, terms[i] / std::sqrt(matrix.diagonal(i)));
-      largest = problem.max(largest);
-      for (std::size_t i = 0; i < terms.size(); ++i)
-        terms[i] += not_resolved * std::sqrt(std::max(0., matrix.diagonal(i))) * largest;
-    }
-  } // namespace
-
   void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                  const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
                  std::vector<double> &terms)
@@ -171,8 +149,6 @@ namespace taut
       terms[i] += std::abs(problem.free_gap[i]);
     for (std::size_t i = 0; i < problem.gap_scale.size(); ++i)
       terms[i] += problem.gap_scale[i];
-    if (matrix.is_iterative())
-      add_rounding_of_iterations(problem, matrix, terms);
     if (mode_amplitude.empty())
       return;
 
