@@ -15,8 +15,16 @@ namespace taut
     /// saves no set.
     constexpr double rough_part = .3, exact_part = 1e-3;
 
+    /// Rows with a gap below this part of the required one are done. An iteration rounds in all
+    /// rows with the largest right-hand side: where it gains nothing more, those that are done have
+    /// none, so that it resolves small rows beside them.
+    constexpr double done_part = .1;
+
     /// Gaps that are rounding, over their terms.
     constexpr double rounding = 1e-16;
+
+    /// Multipliers that are rounding of rounding, over the largest one (rows scaled to F_ii = 1).
+    constexpr double rounding_of_rounding = 1e-26;
 
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
     double largest_gap(const std::vector<std::size_t> &set, const std::vector<double> &gap,
@@ -27,6 +35,23 @@ namespace taut
         if (!(std::abs(gap[i]) <= largest * terms[i]) && !std::isnan(largest))
           largest = std::abs(gap[i]) / terms[i];
       return largest;
+    }
+
+    /// The rounding of an iteration has no end in rows that neither loads nor other rows reach:
+    /// each correction leaves a smaller one. Their multipliers are zero.
+    void drop_rounding(const MixedComplementarityProblem &problem,
+                       const ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
+                       std::vector<double> &multiplier)
+    {
+      const auto size = [&](const std::size_t i)
+      { return std::abs(multiplier[i]) * std::sqrt(matrix.diagonal(i)); };
+      double largest = 0.;
+      for (const std::size_t i : set)
+        largest = std::max(largest, size(i));
+      largest = problem.max(largest);
+      for (const std::size_t i : set)
+        if (problem.free_gap[i] == 0. && size(i) < rounding_of_rounding * largest)
+          multiplier[i] = 0.;
     }
 
     /// Largest F_ii |x_i| on the set.
@@ -82,8 +107,9 @@ namespace taut
     const auto largest = [&] { return problem.max(largest_gap(set, solution.gap, terms)); };
     Sizes now = {matrix.is_iterative() ? largest() : 1., 0.};
     RoughSolves solves(matrix);
-    bool is_solved = false;
-    for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
+    bool is_solved = false, leaves_done_rows = false;
+    unsigned int last_correction = options.max_corrections;
+    for (unsigned int correction = 0; correction <= last_correction; ++correction)
     {
       solves.set_tolerance(part * tolerance / std::max(now.gap, tolerance));
       if (is_solved)
@@ -91,12 +117,16 @@ namespace taut
         before = solution;
         terms_before = terms;
       }
+      ask_for(set, solution.gap, terms,
+              leaves_done_rows ? std::min(done_part * tolerance, now.gap) : 0.);
       if (!correct(problem, matrix, set, solution))
       {
         if (!is_solved)
           return Outcome::inadmissible;
         break;
       }
+      if (matrix.is_iterative())
+        drop_rounding(problem, matrix, set, solution.multiplier);
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
       const Sizes last = now;
@@ -115,7 +145,12 @@ namespace taut
       if (is_solved && (!is_exact || shift == 0. || now.gap <= rounding))
         break;
       if (correction > 0 && !(now.gap < .5 * last.gap && steps_shrink))
-        break;
+      {
+        if (!matrix.is_iterative() || shift != 0. || leaves_done_rows)
+          break;
+        leaves_done_rows = true;
+        last_correction += options.max_corrections;
+      }
     }
     if (is_solved && problem.n_null_space() > 0 && !solves_with_null_space(problem, matrix))
       balance(problem, matrix, set, solution);
@@ -168,12 +203,23 @@ namespace taut
     gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
   }
 
+  /// The right-hand side of a correction: what is left of the gaps, and zero in rows with |D_i| <
+  /// @p done s_i.
+  void ActiveSetSystem::ask_for(const std::vector<std::size_t> &set, const std::vector<double> &gap,
+                                const std::vector<double> &terms, const double done)
+  {
+    std::transform(gap.begin(), gap.end(), rhs.begin(), std::negate<double>());
+    if (done > 0.)
+      for (const std::size_t i : set)
+        if (std::abs(gap[i]) < done * terms[i])
+          rhs[i] = 0.;
+  }
+
   bool ActiveSetSystem::correct(const MixedComplementarityProblem &problem,
                                 ComplementarityOperator &matrix,
                                 const std::vector<std::size_t> &set,
                                 MixedComplementaritySolution &solution)
   {
-    std::transform(solution.gap.begin(), solution.gap.end(), rhs.begin(), std::negate<double>());
     if (problem.n_null_space() > 0 && solves_with_null_space(problem, matrix))
       return correct_with_null_space(problem, matrix, set, solution);
     if (!matrix.solve(set, rhs, shift, step))

@@ -48,6 +48,8 @@ namespace taut
     void start(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                const std::vector<std::size_t> &set, MixedComplementaritySolution &solution,
                std::vector<double> &terms) const;
+    void ask_for(const std::vector<std::size_t> &set, const std::vector<double> &gap,
+                 const std::vector<double> &terms, double done);
     bool correct(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
     bool correct_with_null_space(const MixedComplementarityProblem &problem,

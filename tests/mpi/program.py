@@ -259,7 +259,7 @@ with tempfile.TemporaryDirectory() as name:
     # Where links and contacts live with their bodies.
     SHORT.clear()
     for stem, end in (("en50318_2002_250", 0), ("hertz_cylinder", 0), ("block_on_block", 0), ("en50318_2002_250", .05),
-                      ("string_on_stop", .2), ("block_impact", .05)):
+                      ("string_on_stop", .2), ("block_impact", .05), ("bar_on_two_cables", .3)):
         check_scene(arguments.prm / f"{stem}.prm", scratch, end)
     line = str(arguments.prm / "en50318_2002_250.prm")
     stop = str(arguments.prm / "oscillator_with_stop.prm")

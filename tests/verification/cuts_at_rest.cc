@@ -2,6 +2,8 @@
 // Claim: a tensioned beam without load that its supports move as a rigid body is at rest on a
 // straight line, however many parts it is cut in, with each form of the interface operator. All
 // slopes and moments of its cuts are rounding there or cancel. Source: w(s) = u0 + (u1 - u0) s / L.
+// So is a beam without load beside a string with one, whose droppers are slack. Source: w = F a b /
+// (T L) under the force.
 #include "scene_tests.h"
 
 using namespace verification;
@@ -62,4 +64,36 @@ TEST(CutsAtRest, a_beam_moved_by_its_supports_is_straight)
             expect_straight({length, tension, bending_stiffness, 0., .01}, parts, form);
             expect_straight({length, tension, bending_stiffness, .0137, .0137}, parts, form);
           }
+}
+
+TEST(CutsAtRest, a_wire_without_loads_stays_beside_one_with_a_load)
+{
+  constexpr double length = 20., place = 6., tension = 1e4, force = -200.,
+                   under_force = force * place * (length - place) / (tension * length);
+  const std::string text = "Gravity = 0, 0; Start = equilibrium\nTime: End = 0\n"
+                           "Wire upper: From = 0, 1; To = 20, 1; Components = string;"
+                           " Mass per length = 1; Tension = 1e4; Element size = 1\n"
+                           "Wire lower: To = 20, 0; Components = beam; Mass per length = 1;"
+                           " Tension = 1e3; Bending stiffness = 500; Element size = 1\n"
+                           "Support of upper: Wire = upper; Positions = 0, 20\n"
+                           "Support of lower: Wire = lower; Positions = 0, 20\n"
+                           "Link dropper: Type = dropper; From = upper @ 1:2:19;"
+                           " To = lower @ 1:2:19; Direction = 0, -1\n"
+                           "Link stop: Type = stop; From = ground; To = lower @ 1:3:19;"
+                           " Direction = 0, 1; Gap = 0.05\n"
+                           "Load pull: On = upper @ 6; Direction = 0, 1; Magnitude = -200\n";
+  for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
+    for (const char *parts : {"2", "3", "5", "8"})
+    {
+      SCOPED_TRACE(std::string(form) + ", " + parts + " parts");
+      run_scene(text,
+                {std::string("Partition/Number of substructures=") + parts,
+                 std::string("Solver/Interface operator=") + form},
+                [&](const taut::StepView &view)
+                {
+                  EXPECT_NEAR(displacement(view, 0, place), under_force, 1e-9);
+                  for (const double s : {3., 10., 17.})
+                    EXPECT_NEAR(displacement(view, 1, s), 0., 1e-12);
+                });
+    }
 }
