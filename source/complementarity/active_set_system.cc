@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace taut
@@ -23,7 +24,8 @@ namespace taut
     /// Gaps that are rounding, over their terms.
     constexpr double rounding = 1e-16;
 
-    /// Multipliers that are rounding of rounding, over the largest one (rows scaled to F_ii = 1).
+    /// Multipliers and gaps that are rounding of rounding, over the largest multiplier (rows scaled
+    /// to F_ii = 1).
     constexpr double rounding_of_rounding = 1e-26;
 
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
@@ -38,20 +40,43 @@ namespace taut
     }
 
     /// The rounding of an iteration has no end in rows that neither loads nor other rows reach:
-    /// each correction leaves a smaller one. Their multipliers are zero.
+    /// each correction leaves a smaller one. Their multipliers and amplitudes are zero.
     void drop_rounding(const MixedComplementarityProblem &problem,
                        const ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
-                       std::vector<double> &multiplier)
+                       MixedComplementaritySolution &solution)
     {
+      // Both over the same: N_i sqrt(F_ii) and D_i / sqrt(F_ii) are roots of energies.
       const auto size = [&](const std::size_t i)
-      { return std::abs(multiplier[i]) * std::sqrt(matrix.diagonal(i)); };
+      { return std::abs(solution.multiplier[i]) * std::sqrt(matrix.diagonal(i)); };
       double largest = 0.;
       for (const std::size_t i : set)
         largest = std::max(largest, size(i));
-      largest = problem.max(largest);
+      const double rounding = rounding_of_rounding * problem.max(largest);
       for (const std::size_t i : set)
-        if (problem.free_gap[i] == 0. && size(i) < rounding_of_rounding * largest)
-          multiplier[i] = 0.;
+        if (problem.free_gap[i] == 0. && size(i) < rounding)
+          solution.multiplier[i] = 0.;
+
+      std::vector<double> &amplitude = solution.mode_amplitude;
+      if (amplitude.empty())
+        return;
+      std::vector<double> motions(amplitude.size(), 0.);
+      for (std::size_t k = 0; k < amplitude.size(); ++k)
+      {
+        const LinearForm &mode = problem.null_space[k];
+        for (std::size_t e = 0; e < mode.index.size(); ++e)
+        {
+          const std::size_t i = mode.index[e];
+          motions[k] = std::max(motions[k], problem.free_gap[i] != 0.
+                                              ? std::numeric_limits<double>::infinity()
+                                              : std::abs(mode.value[e] * amplitude[k]) /
+                                                  std::sqrt(matrix.diagonal(i)));
+        }
+      }
+      if (problem.shared)
+        problem.shared->max(motions);
+      for (std::size_t k = 0; k < amplitude.size(); ++k)
+        if (motions[k] > 0. && motions[k] < rounding)
+          amplitude[k] = 0.;
     }
 
     /// Largest F_ii |x_i| on the set.
@@ -126,7 +151,7 @@ namespace taut
         break;
       }
       if (matrix.is_iterative())
-        drop_rounding(problem, matrix, set, solution.multiplier);
+        drop_rounding(problem, matrix, set, solution);
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
       const Sizes last = now;
