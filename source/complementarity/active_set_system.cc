@@ -67,9 +67,9 @@ namespace taut
         {
           const std::size_t i = mode.index[e];
           motions[k] = std::max(motions[k], problem.free_gap[i] != 0.
-                                              ? std::numeric_limits<double>::infinity()
-                                              : std::abs(mode.value[e] * amplitude[k]) /
-                                                  std::sqrt(matrix.diagonal(i)));
+                                                ? std::numeric_limits<double>::infinity()
+                                                : std::abs(mode.value[e] * amplitude[k]) /
+                                                      std::sqrt(matrix.diagonal(i)));
         }
       }
       if (problem.shared)
