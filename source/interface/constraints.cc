@@ -38,9 +38,15 @@ namespace taut
                            RowNumbers numbers)
       : Constraints(bodies, std::move(all))
   {
-    n_all_cuts = numbers.n_of_all;
-    share(std::move(numbers));
-    number_contacts();
+    const std::size_t n_cuts_of_all = numbers.n_of_all;
+    share_first(std::move(numbers), n_cuts_of_all);
+  }
+
+  Constraints::Constraints(const Constraints &others, std::vector<ConstraintData> all)
+      : Constraints(others.structure, std::move(all))
+  {
+    if (others.shared_rows)
+      share_first(others.numbers_of_distributed(), others.n_all_cuts);
   }
 
   void Constraints::check(const Rows &rows) const

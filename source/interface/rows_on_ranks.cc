@@ -21,6 +21,23 @@ namespace taut
         structure.communicator(), std::move(numbers.here), numbers.n_of_all, common_rows().size());
   }
 
+  /// The first rows are those with these numbers.
+  void Constraints::share_first(RowNumbers numbers, const std::size_t n_cuts_of_all)
+  {
+    n_all_cuts = n_cuts_of_all;
+    first_common = numbers.here.size();
+    share(std::move(numbers));
+    number_contacts();
+  }
+
+  RowNumbers Constraints::numbers_of_distributed() const
+  {
+    RowNumbers result = {n_of_all() - common_rows().size()};
+    for (std::size_t i = 0; i < first_common; ++i)
+      result.here.push_back(number(i));
+    return result;
+  }
+
   /// Other rows, cuts first, in place of the first @p n ones.
   void Constraints::replace_first(const std::size_t n, std::vector<ConstraintData> rows)
   {

@@ -138,7 +138,7 @@ namespace taut
   {
     const Communicator &processes = structure.communicator();
     const bool has_rows = constraints.n_of_all() > constraints.varying_rows().size();
-    if (processes.size() == 1 || !has_rows || !constraints.turning_rows().empty())
+    if (processes.size() == 1 || !has_rows)
       return false;
     if (parameters.form == "matrix-free")
       return true;

@@ -109,22 +109,27 @@ namespace taut
   void Constraints::keep_directions(const BodyVectors &reference, const std::vector<double> &N)
   {
     const std::vector<Coordinates> motions = differences(reference);
+    RowNumbers numbers = numbers_of_distributed();
+    const std::size_t n_cuts_of_all = n_all_cuts;
     std::vector<ConstraintData> springs;
     for (const std::size_t i : turning_rows())
     {
       ConstraintData &link = constraints[i];
       const Coordinates *const moved = motions.data() + *segments(i).begin();
       const TurningDirection::Linear linear = turning(i).linearised(moved);
-      for (std::size_t k = 0; k < turning(i).size() && turning(i).sign * N[i] < 0.; ++k)
+      const double force = N[turning_index(i)];
+      for (std::size_t k = 0; k < turning(i).size() && turning(i).sign * force < 0.; ++k)
         for (const Coordinates &direction : across(linear.directions[k]))
           springs.push_back(geometric_spring(link.name + " across", link, k, direction,
-                                             std::fabs(N[i]) / linear.distances[k], moved[k]));
+                                             std::fabs(force) / linear.distances[k], moved[k]));
       link.terms = linear.terms;
       link.gap = linear.gap;
       link.geometry = nullptr;
     }
     constraints.insert(constraints.begin() + first_sliding, springs.begin(), springs.end());
     sort();
+    if (shared_rows)
+      share_first(std::move(numbers), n_cuts_of_all);
     arrange();
   }
 } // namespace taut

@@ -228,9 +228,9 @@ namespace taut
     log << "Linearised at the "
         << (model.start == Start::equilibrium ? "equilibrium of the scene: " : "shape at rest: ")
         << names;
-    if (start.n_kept > 0)
-      log << "; " << counted(start.n_kept, "link") << " that would turn "
-          << (start.n_kept == 1 ? "keeps its direction" : "keep their directions");
+    if (!start.kept.empty())
+      log << "; " << counted(start.kept.size(), "link") << " that would turn "
+          << (start.kept.size() == 1 ? "keeps its direction" : "keep their directions");
     log << '\n';
   }
 
@@ -269,8 +269,8 @@ namespace taut
       const Scene without = without_sliding_contacts(model);
       Constraints fixed_constraints = scene_constraints(without, bodies);
       choose_rows(fixed_constraints, parameters.solver.interface, bodies, true);
-      if (start.n_kept > 0)
-        fixed_constraints.keep_directions(start.reference.displacement, start.state.multiplier);
+      if (!start.kept.empty())
+        fixed_constraints.keep_directions(start.reference.displacement, start.kept);
       try
       {
         const StaticState alone =

@@ -29,9 +29,10 @@ namespace taut
       }
       if (constraints.turning_rows().empty() || structure.communicator().any(others))
         return;
-      result.n_kept = constraints.turning_rows().size();
-      const std::size_t n = constraints.size() - constraints.sliding_rows().size();
-      constraints.keep_directions(result.reference.displacement, N);
+      const auto first_sliding = N.end() - constraints.sliding_rows().size();
+      result.kept.assign(first_sliding - constraints.turning_rows().size(), first_sliding);
+      const std::size_t n = first_sliding - N.begin();
+      constraints.keep_directions(result.reference.displacement, result.kept);
       N.insert(N.begin() + n, constraints.size() - N.size(), 0.);
       result.state.springs.resize(constraints.size());
     }

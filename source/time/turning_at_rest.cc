@@ -33,8 +33,7 @@ namespace taut
 
   TurningAtRest::TurningAtRest(const Structure &structure, const Constraints &constraints,
                                const double load)
-      : structure(structure), all(constraints), undeformed(structure.zero()),
-        load(load > 0. ? load : 1.)
+      : all(constraints), undeformed(structure.zero()), load(load > 0. ? load : 1.)
   {
   }
 
@@ -93,7 +92,7 @@ namespace taut
         source.insert(source.end(), n_springs, i);
       }
     }
-    linear = std::make_unique<Constraints>(structure, std::move(list));
+    linear = std::make_unique<Constraints>(all, std::move(list));
   }
 
   double TurningAtRest::largest_length() const
@@ -140,8 +139,8 @@ namespace taut
     for (std::vector<double> *v : {&state.multiplier, &state.complementarity_gap, &state.distance})
       v->resize(all.size());
     if (std::size_t &worst = state.residuals.worst_constraint;
-        worst >= all.size() && worst != no_link)
-      worst = source[worst - all.size()];
+        worst >= all.n_of_all() && worst != no_link)
+      worst = all.number(source[worst - all.n_of_all()]);
   }
 
   std::vector<double> TurningAtRest::gaps(const BodyVectors &U) const

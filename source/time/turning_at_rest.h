@@ -83,7 +83,6 @@ namespace taut
   private:
     void set(const BodyVectors &U, const std::vector<double> &N, bool is_check = false);
 
-    const Structure &structure;
     const Constraints &all;
     const BodyVectors undeformed;
     double load;

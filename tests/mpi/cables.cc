@@ -42,7 +42,8 @@ namespace
 // Claim: nonlinear cables hang and move on any number of ranks as on one: all displacements, forces
 // and probes to 1e-9 of the largest. Expected: the run of one process. Guys that go slack, a net, a
 // cable that meets a mass, one that lies on a floor, two that ropes join which turn; with joints on
-// the ranks of their bodies, too.
+// the ranks of their bodies, too, beside droppers that turn, or keep their directions where all
+// cables are linearised.
 TEST(Ranks, cables_are_the_same)
 {
   expect_same("swinging_load_on_guys", {"Time/End=1.4"}, true);
@@ -51,6 +52,14 @@ TEST(Ranks, cables_are_the_same)
   expect_same("cable_on_floor", {"Time/End=0.3"});
   for (const char *const scene : {"bar_on_two_cables", "net_of_cables", "pendulum_cable"})
     expect_same(scene, {"Time/End=0.3", "Solver/Interface operator=matrix-free"});
+  const Overrides line = {"Time/End=0.05",
+                          "Statistics/Window=", "Solver/Interface operator=matrix-free"};
+  expect_same("line_of_cables_with_weights", line);
+  expect_same("line_of_cables_with_weights",
+              line + Overrides{"Body messenger 1/Geometry=linearised",
+                               "Body messenger 2/Geometry=linearised",
+                               "Body messenger 3/Geometry=linearised",
+                               "Body contact wire/Geometry=linearised"});
   expect_same("cable_in_wind");
   expect_same("line_with_droppers", {"Time/End=0.25"}); // later catches amplify rounding
   expect_same("line_with_droppers",

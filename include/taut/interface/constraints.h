@@ -126,10 +126,13 @@ namespace taut
     Constraints(Lasting<Structure> structure, std::vector<ConstraintData> constraints,
                 RowNumbers numbers);
 
+    /// Fixed constraints in place of all of @p others, in their order and on the same ranks, and
+    /// then more, which all ranks have. Called by all ranks together.
+    Constraints(const Constraints &others, std::vector<ConstraintData> constraints);
+
     /// With @p are_distributed, each rank drops the fixed rows that do not act on its bodies: for a
-    /// matrix-free F, and without turning constraints. Otherwise all ranks get all cuts, if those
-    /// of a body are distributed from the start. Throws std::logic_error if called twice. Called by
-    /// all ranks together.
+    /// matrix-free F. Otherwise all ranks get all cuts, if those of a body are distributed from the
+    /// start. Throws std::logic_error if called twice. Called by all ranks together.
     void distribute(bool are_distributed);
 
     /// The distributed rows; null: all ranks have all of them.
@@ -284,10 +287,10 @@ namespace taut
 
     /**
      * Replaces turning constraints by fixed ones with their directions and gaps at
-     * U = @p reference. A link that pulls with force N there, one entry a constraint, resists
-     * lateral motions of the ends of its segments. Each gets two springs |N| / |Delta|, without
-     * force at the reference, in rows before the sliding constraints. Constraints that push have no
-     * such springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
+     * U = @p reference. A link that pulls with force N there, one entry a turning constraint,
+     * resists lateral motions of the ends of its segments. Each gets two springs |N| / |Delta|,
+     * without force at the reference, in rows before the sliding constraints. Constraints that push
+     * have no such springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
      */
     void keep_directions(const BodyVectors &reference, const std::vector<double> &N);
 
@@ -353,6 +356,8 @@ namespace taut
 
     void check(const Rows &rows) const;
     void share(RowNumbers numbers);
+    void share_first(RowNumbers numbers, std::size_t n_cuts_of_all);
+    RowNumbers numbers_of_distributed() const;
     void gather_cuts();
     void number_contacts();
     std::size_t n_segments() const { return first_segments.back(); }

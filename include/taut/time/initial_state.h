@@ -20,7 +20,7 @@ namespace taut
     BodyVectors loads; ///< external forces minus those of the reference [N, N m]
     Residuals residuals;
     std::vector<char> linearised; ///< for each body of all ranks: was linearised here
-    std::size_t n_kept = 0;       ///< turning constraints that keep their direction from here on
+    std::vector<double> kept;     ///< forces of links that keep their direction from here on [N]
     std::string repeated_joints;  ///< names of those at rest, see RepeatedRows
   };
 
