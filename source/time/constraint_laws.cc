@@ -154,7 +154,8 @@ namespace taut
     if (row_of[i] == rows.size())
       return 0.;
     const Row &row = rows[row_of[i]];
-    return (L - row.force(u)) / row.slope(u);
+    // A force below zero is rounding, which the cone of the constraint is measured by.
+    return (constraints[i].cone.project(L) - row.force(u)) / row.slope(u);
   }
 
   void ConstraintLaws::set_compressions(const std::vector<double> &gap,
@@ -233,7 +234,10 @@ namespace taut
     double sum = 0.;
     for (const std::size_t i : constraints.rows_but_cuts()) // cuts do not move
     {
-      if (!constraints.counts(i))
+      // The gap of a rigid constraint that stays closed changes by rounding, times its whole force.
+      const bool is_rigid = row_of[i] == rows.size() && S[i] == 0.;
+      if (!constraints.counts(i) ||
+          (is_rigid && from.multiplier[i] != 0. && to.multiplier[i] != 0.))
         continue;
       const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
                    L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];

@@ -379,6 +379,64 @@ TEST(Laws, cuts_and_forms_do_not_matter)
   }
 }
 
+// Rows that a wave has not reached have gaps and forces of rounding alone, beside rows with all the
+// load: droppers with little damping, and with a law, above a joint that carries the whole.
+TEST(Laws, rows_that_no_wave_has_reached_do_not_matter)
+{
+  const auto wire = [](const std::string &name, const std::string &y, const std::string &more)
+  {
+    return "Wire " + name + ": From = 0, " + y + "; To = 20, " + y + "; Mass per length = 1; " +
+           more + "\nSupport of " + name + ": Wire = " + name + "; Positions = 0, 20\n";
+  };
+  const std::string
+      string = "Components = string; Tension = 1000; Element size = .5",
+      start = "Gravity = 0, 0\n", damped = "Stiffness = 1e5; Damping = 1",
+      table = "Law = table; Law points = 0.001: 10, 0.01: 500",
+      beam = "Components = beam; Tension = 1e4; Bending stiffness = 50; Element size = 1",
+      tight = "Components = string; Tension = 1e4; Element size = .25",
+      stop = "Link stop: Type = stop; From = ground; To = lower @ 1:1:19; Direction ="
+             " 0, 1; ";
+  const std::string scenes[] = {
+      start + "Start = equilibrium\n" + wire("upper", "2", string) + wire("lower", "1", string) +
+          "Link dropper: Type = dropper; From = upper @ 1:2:19; To = lower @ 1:2:19; Direction = "
+          "0, "
+          "-1; " +
+          damped + "\n" + stop + "Gap = .05; " + damped +
+          "\nLoad pull: On = upper @ 6; Direction = 0, 1; Magnitude = 150*sin(60*t)\n"
+          "Time: Step = 1e-3; End = .05\n",
+      start + "Start = undeformed\n" + wire("upper", "3", beam) + wire("middle", "2", tight) +
+          wire("lower", "1", tight) +
+          "Link joint: Type = joint; From = upper @ 1:5:19; To = middle @ 1:5:19; Direction = 0, "
+          "-1\nLink dropper: Type = dropper; From = middle @ 1:1:19; To = lower @ 1:1:19; "
+          "Direction "
+          "= 0, -1; " +
+          table + "\n" + stop + "Gap = .01; Stiffness = 1000; Damping = 100" +
+          "\nLoad pull: On = upper @ 6; Direction = 0, 1; Magnitude = -200\n"
+          "Time: Step = 5e-3; End = .15\n"};
+  for (const std::string &scene : scenes)
+  {
+    const auto forces = [&](const std::string &solver)
+    {
+      std::vector<double> all;
+      run_scene(scene, {"Solver.Interface operator=assembled dense", "Solver." + solver},
+                [&](const taut::StepView &view) {
+                  all.insert(all.end(), view.state.multiplier.begin(), view.state.multiplier.end());
+                });
+      return all;
+    };
+    const std::vector<double> first = forces("Complementarity=semismooth Newton"),
+                              second = forces("Complementarity=energy-ordered"),
+                              third = forces("Interface operator=matrix-free");
+    EXPECT_GT(largest(first), 10.);
+    EXPECT_LT(figure("law, waves, largest difference of forces, energy-ordered",
+                     largest_difference(first, second) / largest(first)),
+              1e-6);
+    EXPECT_LT(figure("law, waves, largest difference of forces, matrix-free",
+                     largest_difference(first, third) / largest(first)),
+              1e-6);
+  }
+}
+
 TEST(Laws, large_motions)
 {
   const HeldCable softening = hold({"Law=table", "Law points=0.05: 40, 1: 90"});
