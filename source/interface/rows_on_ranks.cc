@@ -148,14 +148,6 @@ namespace taut
     add_up(to);
   }
 
-  std::vector<double> Constraints::of_contact(const std::vector<double> &values,
-                                              const std::size_t contact) const
-  {
-    std::vector<double> result;
-    copy_of_contact(values, contact, result);
-    return result;
-  }
-
   void Constraints::copy_of_contact(const std::vector<double> &values, const std::size_t contact,
                                     std::vector<double> &to) const
   {

@@ -50,7 +50,7 @@ TEST(Ranks, cables_are_the_same)
   expect_same("net_of_cables");
   expect_same("pendulum_cable", {"Time/End=0.5"});
   expect_same("cable_on_floor", {"Time/End=0.3"});
-  for (const char *const scene : {"bar_on_two_cables", "net_of_cables", "pendulum_cable"})
+  for (const char *const scene : {"net_of_cables", "pendulum_cable"})
     expect_same(scene, {"Time/End=0.3", "Solver/Interface operator=matrix-free"});
   const Overrides line = {"Time/End=0.05",
                           "Statistics/Window=", "Solver/Interface operator=matrix-free"};

@@ -105,8 +105,8 @@ namespace taut
   /// Which of the first rows a rank has, where not all ranks have all of them.
   struct RowNumbers
   {
-    std::size_t n_of_all = 0;           ///< of all ranks
-    std::vector<std::size_t> here = {}; ///< numbers of those of this rank, ascending
+    std::size_t n_of_all = 0;           ///< rows of all ranks
+    std::vector<std::size_t> here = {}; ///< numbers of the rows of this rank, ascending
   };
 
   /**
@@ -143,8 +143,8 @@ namespace taut
     std::size_t size() const { return constraints.size(); }
     std::size_t n_of_all() const;
 
-    /// The rows that are no cuts; those of them that are not distributed, which all ranks have; and
-    /// whether a row is owned by this rank: each is by one.
+    /// The rows that are no cuts; the common rows, which all ranks have; and whether a row is owned
+    /// by this rank: one rank owns it.
     boost::integer_range<std::size_t> rows_but_cuts() const { return {n_cuts, size()}; }
     boost::integer_range<std::size_t> common_rows() const { return {first_common, size()}; }
     bool is_own(std::size_t i) const;
@@ -160,7 +160,6 @@ namespace taut
     std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
     void copy_of_links(const std::vector<double> &values, std::size_t n,
                        std::vector<double> &to) const;
-    std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact) const;
     void copy_of_contact(const std::vector<double> &values, std::size_t contact,
                          std::vector<double> &to) const;
 

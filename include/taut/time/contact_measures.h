@@ -49,7 +49,7 @@ namespace taut
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
-    /// Name and path of a row by its number, of those that the summary() has.
+    /// Name and path of a row that the summary() has, by its number.
     Constraints::Label label(std::size_t number) const;
 
     /// Mean of the force of a constraint over the time that its element resolves [N, N m].
