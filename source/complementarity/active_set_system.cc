@@ -17,8 +17,8 @@ namespace taut
     constexpr double rough_part = .3, exact_part = 1e-3;
 
     /// Rows with a gap below this part of the required one are done. An iteration rounds in all
-    /// rows with the largest right-hand side: where it gains nothing more, those that are done have
-    /// none, so that it resolves small rows beside them.
+    /// rows with the largest right-hand side. Where it gains nothing more, the rows that are done
+    /// get the right-hand side zero, so that it resolves small rows beside them.
     constexpr double done_part = .1;
 
     /// Gaps that are rounding, over their terms.

@@ -27,6 +27,7 @@ namespace taut
       : structure(bodies), constraints(std::move(all))
   {
     sort();
+    number_contacts();
     for (const std::size_t i : sliding_rows())
       place(i).set_course({});
     check({0, first_sliding});
@@ -38,15 +39,19 @@ namespace taut
                            RowNumbers numbers)
       : Constraints(bodies, std::move(all))
   {
-    const std::size_t n_cuts_of_all = numbers.n_of_all;
-    share_first(std::move(numbers), n_cuts_of_all);
+    n_all_cuts = numbers.n_of_all;
+    share(std::move(numbers));
+    number_contacts();
   }
 
   Constraints::Constraints(const Constraints &others, std::vector<ConstraintData> all)
       : Constraints(others.structure, std::move(all))
   {
+    n_all_cuts = others.n_all_cuts;
+    first_common = others.first_common;
+    of_contacts = others.of_contacts;
     if (others.shared_rows)
-      share_first(others.numbers_of_distributed(), others.n_all_cuts);
+      share_like(*others.shared_rows);
   }
 
   void Constraints::check(const Rows &rows) const
@@ -106,9 +111,8 @@ namespace taut
     n_cuts = std::stable_partition(constraints.begin(), end_of_fixed,
                                    [](const ConstraintData &c) { return c.is_cut(); }) -
              constraints.begin();
-    n_all_cuts = n_cuts;
-    first_common = n_cuts;
-    number_contacts();
+    if (!shared_rows)
+      n_all_cuts = first_common = n_cuts;
     first_segments.assign(1, 0);
     for (const std::size_t i : turning_rows())
       first_segments.push_back(first_segments.back() + turning(i).size());

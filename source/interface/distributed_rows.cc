@@ -34,6 +34,12 @@ namespace taut
       owns[index(number)] = 1;
   }
 
+  DistributedRows::DistributedRows(const DistributedRows &others, const std::size_t n_common)
+      : DistributedRows(others)
+  {
+    this->n_common = n_common;
+  }
+
   std::size_t DistributedRows::number(const std::size_t i) const
   {
     const std::size_t n_held = of_bodies.held().size();
@@ -43,6 +49,8 @@ namespace taut
   std::size_t DistributedRows::index(const std::size_t number) const
   {
     const std::vector<std::size_t> &held = of_bodies.held();
+    if (number >= n_of_all())
+      return elsewhere;
     if (number >= n_of_bodies)
       return held.size() + number - n_of_bodies;
     const auto at = std::lower_bound(held.begin(), held.end(), number);

@@ -24,6 +24,9 @@ namespace taut
     DistributedRows(const Communicator &processes, std::vector<std::size_t> of_bodies,
                     std::size_t n_of_bodies, std::size_t n_common);
 
+    /// The same with another number of common rows.
+    DistributedRows(const DistributedRows &others, std::size_t n_common);
+
     std::size_t n_of_all() const override { return n_of_bodies + n_common; }
     std::size_t size() const override { return of_bodies.held().size() + n_common; }
     std::size_t number(std::size_t i) const override;

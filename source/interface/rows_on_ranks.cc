@@ -21,21 +21,11 @@ namespace taut
         structure.communicator(), std::move(numbers.here), numbers.n_of_all, common_rows().size());
   }
 
-  /// The first rows are those with these numbers.
-  void Constraints::share_first(RowNumbers numbers, const std::size_t n_cuts_of_all)
+  /// The same rows on the same ranks, with other common ones.
+  void Constraints::share_like(const SharedRows &others)
   {
-    n_all_cuts = n_cuts_of_all;
-    first_common = numbers.here.size();
-    share(std::move(numbers));
-    number_contacts();
-  }
-
-  RowNumbers Constraints::numbers_of_distributed() const
-  {
-    RowNumbers result = {n_of_all() - common_rows().size()};
-    for (std::size_t i = 0; i < first_common; ++i)
-      result.here.push_back(number(i));
-    return result;
+    shared_rows = std::make_shared<const DistributedRows>(
+        static_cast<const DistributedRows &>(others), common_rows().size());
   }
 
   /// Other rows, cuts first, in place of the first @p n ones.
@@ -130,34 +120,39 @@ namespace taut
     return value;
   }
 
-  std::vector<double> Constraints::of_links(const std::vector<double> &values,
-                                            const std::size_t n) const
+  namespace
   {
-    std::vector<double> result;
-    copy_of_links(values, n, result);
-    return result;
-  }
+    /// Values of the rows that are no cuts, at their places, on all ranks.
+    template <typename Place>
+    void collect(const Constraints &constraints, const std::vector<double> &values,
+                 const Place &place, std::vector<double> &to)
+    {
+      for (const std::size_t i : constraints.rows_but_cuts())
+        if (const std::size_t at = place(i); at < to.size() && constraints.counts(i))
+          to[at] = values[i];
+      constraints.add_up(to);
+    }
+  } // namespace
 
-  void Constraints::copy_of_links(const std::vector<double> &values, const std::size_t n,
-                                  std::vector<double> &to) const
+  std::vector<double> Constraints::of_links(const std::vector<double> &values, const std::size_t n,
+                                            std::vector<double> to) const
   {
     to.assign(n, 0.);
-    for (const std::size_t i : rows_but_cuts())
-      if (constraints[i].link < n && counts(i))
-        to[constraints[i].link] = values[i];
-    add_up(to);
+    collect(
+        *this, values, [&](const std::size_t i) { return constraints[i].link; }, to);
+    return to;
   }
 
-  void Constraints::copy_of_contact(const std::vector<double> &values, const std::size_t contact,
-                                    std::vector<double> &to) const
+  std::vector<double> Constraints::of_contact(const std::vector<double> &values,
+                                              const std::size_t contact,
+                                              std::vector<double> to) const
   {
-    const RowsOfContact rows =
-        contact < of_contacts.size() ? of_contacts[contact] : RowsOfContact();
-    to.assign(rows.n, 0.);
-    for (const std::size_t i : rows_but_cuts())
-      if (constraints[i].contact == contact && counts(i))
-        to[number(i) - rows.first] = values[i];
-    add_up(to);
+    const auto [first, n] = contact < of_contacts.size() ? of_contacts[contact] : RowsOfContact();
+    const auto place = [&, first = first](const std::size_t i)
+    { return constraints[i].contact == contact ? number(i) - first : no_link; };
+    to.assign(n, 0.);
+    collect(*this, values, place, to);
+    return to;
   }
 
   std::size_t Constraints::n_of_all() const
@@ -178,15 +173,6 @@ namespace taut
   std::size_t Constraints::index(const std::size_t number) const
   {
     return shared_rows ? shared_rows->index(number) : number;
-  }
-
-  std::vector<std::size_t> Constraints::here(const std::vector<std::size_t> &numbers) const
-  {
-    std::vector<std::size_t> result;
-    for (const std::size_t number : numbers)
-      if (const std::size_t i = index(number); i < size())
-        result.push_back(i);
-    return result;
   }
 
   void Constraints::sum(const std::initializer_list<std::vector<double> *> vectors) const
@@ -213,11 +199,9 @@ namespace taut
   {
     double sum = 0.;
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!shared_rows || shared_rows->is_own(i))
+      if (counts(i))
         sum += values[i];
-    if (shared_rows)
-      structure.communicator().sum(&sum, 1);
-    return sum;
+    return added_up(sum);
   }
 
   void Constraints::pick(std::vector<double> &values) const
@@ -239,8 +223,9 @@ namespace taut
   std::vector<Constraints::Label> Constraints::labels(const std::vector<std::size_t> &numbers) const
   {
     std::map<std::size_t, Label> found;
-    for (const std::size_t i : here(numbers))
-      found[number(i)] = {constraints[i].name, constraints[i].origin};
+    for (const std::size_t number : numbers)
+      if (const std::size_t i = index(number); i < size())
+        found[number] = {constraints[i].name, constraints[i].origin};
     if (shared_rows)
     {
       std::map<std::size_t, std::pair<std::string, std::string>> own;
@@ -272,12 +257,10 @@ namespace taut
     return text;
   }
 
-  std::size_t Constraints::number_of_any(const std::size_t i) const
+  std::string Constraints::name(const std::size_t number) const
   {
-    if (!shared_rows)
-      return i;
-    const double found = shared_rows->max(i < size() ? static_cast<double>(number(i)) : -1.);
-    return found < 0. ? no_link : static_cast<std::size_t>(found);
+    const std::vector<Label> found = labels({number});
+    return found.empty() ? "" : found.front().name;
   }
 
   namespace
@@ -302,17 +285,12 @@ namespace taut
   {
     if (!shared_rows)
       return rows;
-    std::vector<std::size_t> own;
+    MatrixEntries own;
     for (const std::size_t i : rows)
       if (is_own(i))
-        own.push_back(number(i));
-    std::vector<std::size_t> result, of_rank;
-    for (const std::string &text :
-         structure.communicator().gather(archived([&](OutputArchive &archive) { archive << own; })))
-    {
-      unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
-      result.insert(result.end(), of_rank.begin(), of_rank.end());
-    }
+        own.add(number(i), 0, 1.);
+    taut::gather(structure.communicator(), own);
+    std::vector<std::size_t> result(own.row.begin(), own.row.end());
     std::sort(result.begin(), result.end());
     return result;
   }

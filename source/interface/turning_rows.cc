@@ -109,8 +109,6 @@ namespace taut
   void Constraints::keep_directions(const BodyVectors &reference, const std::vector<double> &N)
   {
     const std::vector<Coordinates> motions = differences(reference);
-    RowNumbers numbers = numbers_of_distributed();
-    const std::size_t n_cuts_of_all = n_all_cuts;
     std::vector<ConstraintData> springs;
     for (const std::size_t i : turning_rows())
     {
@@ -129,7 +127,7 @@ namespace taut
     constraints.insert(constraints.begin() + first_sliding, springs.begin(), springs.end());
     sort();
     if (shared_rows)
-      share_first(std::move(numbers), n_cuts_of_all);
+      share_like(*shared_rows);
     arrange();
   }
 } // namespace taut

@@ -320,7 +320,7 @@ namespace taut
       return;
     MotionDifference rough = longer->most;
     rough.scale(1. / (ratio_of_steps - 1.));
-    rough.name_at_end.clear(); // impacts of longer steps are off by more than those of the run
+    rough.impulse_at_end = 0.; // impacts of longer steps are off by more than those of the run
     found = rough;
     too_long = !(rough.over_bounds() <= good);
     is_rough = true;
@@ -335,8 +335,7 @@ namespace taut
   /// A contact so near the end that its whole impulse hangs on the time when it begins.
   std::vector<Warning> StepAccuracy::warning_of_end() const
   {
-    if (!found || found->name_at_end.empty() ||
-        found->impulse_at_end <= MotionDifference::impulse_bound)
+    if (!found || found->impulse_at_end <= MotionDifference::impulse_bound)
       return {};
     return {{"end",
              to_text("the impulse of '", found->name_at_end,

@@ -178,7 +178,7 @@ namespace taut
               : std::vector<Coordinates>(geometry.constraints.size()));
       for (const auto &[values, of_contacts] :
            {std::pair(&state.multiplier, &forces), std::pair(&state.distance, &gaps)})
-        step.constraints.copy_of_contact(*values, c, of_contacts->emplace_back());
+        of_contacts->push_back(step.constraints.of_contact(*values, c));
     }
     if (!is_root)
       return;

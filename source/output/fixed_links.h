@@ -19,8 +19,8 @@ namespace taut
     bool may_open, rotates;
   };
 
-  /// All of a scene, or of a System: those that do not turn first. The same on all ranks, whatever
-  /// rows a rank has.
+  /// All links of a scene, those that do not turn first: the same on all ranks, whatever rows a
+  /// rank has. And those of a System, whose rows all ranks have.
   std::vector<FixedLink> fixed_links(const Scene &scene, const Constraints &rows);
 } // namespace taut
 

@@ -107,7 +107,7 @@ namespace taut
       const bool some =
           step.constraints.shared() ? step.constraints.any(!all.empty()) : all.size() > 1;
       const std::vector<std::size_t> together =
-          step.constraints.numbers_of(some ? sharing(step, all) : std::vector<std::size_t>());
+          some ? step.constraints.numbers_of(sharing(step, all)) : std::vector<std::size_t>();
       if (!together.empty() && n_steps++ == 0)
       {
         first = state.time;

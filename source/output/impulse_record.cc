@@ -97,6 +97,21 @@ namespace taut
       matrix.compute_svd();
       return !(matrix.singular_value(forms.size() - 1) > rounding * matrix.singular_value(0));
     }
+
+    /// A rank may lack rows that act where a common row acts: the lowest number is that of the rank
+    /// with all of them.
+    void agree_on_common_rows(const Constraints &constraints, std::vector<std::size_t> &first)
+    {
+      if (!constraints.shared())
+        return;
+      const std::size_t n = constraints.common_rows().size();
+      std::vector<double> opposites;
+      for (std::size_t k = first.size() - n; k < first.size(); ++k)
+        opposites.push_back(-static_cast<double>(first[k]));
+      constraints.communicator().max(opposites);
+      std::transform(opposites.begin(), opposites.end(), first.end() - n,
+                     [](const double number) { return static_cast<std::size_t>(-number); });
+    }
   } // namespace
 
   ImpulseRecord::ImpulseRecord(const Structure &structure, const Constraints &constraints,
@@ -113,8 +128,9 @@ namespace taut
     for (std::size_t i = 0; i < ends.size(); ++i)
       if (!ends[i].dofs.empty())
         alike[{ends[i].dofs, constraints[rows[i]].rotational}].push_back(i);
-    std::vector<std::size_t> first(ends.size());
-    std::iota(first.begin(), first.end(), 0);
+    std::vector<std::size_t> first(rows.size()); // numbers
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      first[i] = constraints.number(rows[i]);
     for (const auto &[key, same] : alike)
     {
       std::vector<const Ends *> forms;
@@ -122,18 +138,20 @@ namespace taut
         forms.push_back(&ends[i]);
       if (same.size() >= least_shared && are_dependent(forms))
         for (const std::size_t i : same)
-          first[i] = same.front();
+          first[i] = constraints.number(rows[same.front()]);
     }
+    agree_on_common_rows(constraints, first);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      if (first[i] < i)
+      const std::size_t own = constraints.index(first[i]);
+      const bool counts = own < constraints.size() && constraints.counts(own);
+      if (own != rows[i])
       {
-        item_of.push_back(item_of[first[i]]);
+        item_of.push_back(counts ? item_of[own - rows.front()] : no_link);
         continue;
       }
-      // Those that share an impulse act on the same bodies, and are counted by the same rank.
-      item_of.push_back(constraints.counts(rows[i]) ? items.size() : no_link);
-      if (item_of.back() == no_link)
+      item_of.push_back(counts ? items.size() : no_link);
+      if (!counts)
         continue;
       items.push_back({rows[i], 2 * groups.of_constraint(rows[i]) + constraints[rows[i]].rotational,
                        constraints[rows[i]].cone.may_open()});
@@ -290,13 +308,8 @@ namespace taut
       differences.push_back(own == own ? own : std::numeric_limits<double>::infinity());
     std::vector<std::size_t> numbers = {row, row_at_end};
     constraints.take_largest(differences, numbers);
-    const auto name = [&](const std::size_t number)
-    {
-      const std::vector<Constraints::Label> labels =
-          number == no_link ? std::vector<Constraints::Label>() : constraints.labels({number});
-      return labels.empty() ? std::string() : labels.front().name;
-    };
-    return {differences[0], differences[1], name(numbers[0]), name(numbers[1])};
+    return {differences[0], differences[1], constraints.name(numbers[0]),
+            constraints.name(numbers[1])};
   }
 
   /// What a row has: its multiplier, and the impulses of the item of which it is the first.

@@ -267,7 +267,8 @@ namespace taut
     {
       Sliding &contact = contacts[k];
       const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
-      step.constraints.copy_of_contact(step.state.multiplier, contact.contact, forces);
+      forces =
+          step.constraints.of_contact(step.state.multiplier, contact.contact, std::move(forces));
       contact.facets.record(forces.data());
       const double n = contact.facets.faces(), least = contact.facets.least_faces();
       if (least / n > worst[facets].excess)

@@ -196,8 +196,8 @@ namespace taut
   {
     const Constraints &rows = motion.links();
     const std::size_t n = std::max(named.links.size(), rows.n_links());
-    rows.copy_of_links(state.multiplier, n, links.force);
-    rows.copy_of_links(state.distance, n, links.gap);
+    links.force = rows.of_links(state.multiplier, n, std::move(links.force));
+    links.gap = rows.of_links(state.distance, n, std::move(links.gap));
   }
 
   void ObservedRun::update_probes(const State &state)

@@ -114,21 +114,14 @@ namespace taut
       return result;
     }
 
-    std::string name_of(const Constraints &constraints, const std::size_t number)
-    {
-      const std::vector<Constraints::Label> labels = constraints.labels({number});
-      return labels.empty() ? "" : labels.front().name;
-    }
-
-    /// Name of the first row of any rank with this property; empty: none.
-    std::string first_row_that(const Constraints &constraints,
+    /// Number of the first row of any rank with this property; no_link: none.
+    std::size_t first_row_that(const Constraints &constraints,
                                const std::function<bool(std::size_t)> &is_so)
     {
       std::size_t i = 0;
       while (i < constraints.size() && !is_so(i))
         ++i;
-      return name_of(constraints,
-                     constraints.number_of_first(i < constraints.size() ? i : no_link));
+      return constraints.number_of_first(i);
     }
 
     void check_restitution(const Structure &structure, const Constraints &constraints)
@@ -137,13 +130,13 @@ namespace taut
       const std::string entry = "Time/Moreau-Jean/Restitution";
       const auto is_rigid = [&](const std::size_t i)
       { return constraints[i].cone.may_open() && constraints[i].spring.is_rigid(); };
-      const std::string on_body = first_row_that(constraints, [&](const std::size_t i)
+      const std::size_t on_body = first_row_that(constraints, [&](const std::size_t i)
                                                  { return is_rigid(i) && on_elements[i] > 0.; });
-      if (!on_body.empty())
+      if (on_body != no_link)
         throw EntryError(entry, "an elastic body rebounds by its own waves, and with restitution "
                                 "its node would bounce at the rigid link '" +
-                                    on_body + "'. Set it to 0");
-      if (first_row_that(constraints, is_rigid).empty())
+                                    constraints.name(on_body) + "'. Set it to 0");
+      if (first_row_that(constraints, is_rigid) == no_link)
         throw EntryError(entry, "restitution is a law of rigid unilateral links, and the scene has "
                                 "none. Set it to 0, or remove the Stiffness of a link");
     }
@@ -166,17 +159,10 @@ namespace taut
                        [](const Substructure &body) { return !body.has_definite_mass(); });
     }
 
-    std::string link_with_law(const Constraints &constraints)
+    std::size_t link_with_law(const Constraints &constraints)
     {
       return first_row_that(constraints, [&](const std::size_t i)
                             { return constraints[i].spring.law != nullptr; });
-    }
-
-    std::string link_that_turns(const Constraints &constraints)
-    {
-      for (const std::size_t i : constraints.turning_rows())
-        return constraints[i].name;
-      return "";
     }
 
     std::string nonlinear_body(const Structure &structure)
@@ -190,12 +176,13 @@ namespace taut
   {
     const std::size_t unresolved = resolution.first_unresolved();
     const bool all_resolved = unresolved == no_link;
-    const std::string of_unresolved = name_of(constraints, unresolved);
+    const std::string of_unresolved = constraints.name(unresolved);
     if (restitution > 0.)
       check_restitution(structure, constraints);
-    const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints),
-                      turning = link_that_turns(constraints);
-    if (all_resolved && nonlinear.empty() && law.empty() && turning.empty())
+    const std::string nonlinear = nonlinear_body(structure);
+    const std::size_t law = link_with_law(constraints);
+    const Constraints::Rows turning = constraints.turning_rows();
+    if (all_resolved && nonlinear.empty() && law == no_link && turning.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no unilateral link is stiffer than the bodies in one step"};
@@ -204,8 +191,9 @@ namespace taut
             ? "body '" + nonlinear +
                   "' moves by large amounts, and the mean forces of this scheme keep its energy"
         : all_resolved && !turning.empty()
-            ? "link '" + turning + "' turns, and the mean forces of this scheme keep the energy"
-        : all_resolved ? "link '" + law +
+            ? "link '" + constraints[turning.front()].name +
+                  "' turns, and the mean forces of this scheme keep the energy"
+        : all_resolved ? "link '" + constraints.name(law) +
                              "' follows a law that is not linear, and the mean forces of this "
                              "scheme keep its energy"
         : resolution.is_unresolved_rigid()
@@ -215,7 +203,7 @@ namespace taut
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty() && !turning.empty())
       throw EntryError("Time/Scheme",
-                       "link '" + turning +
+                       "link '" + constraints[turning.front()].name +
                            "' turns, and that needs mass matrices "
                            "that can be inverted; that of body '" +
                            body + "' is 'reduced'. Take another Mass matrix, or 'backward Euler'");
@@ -301,9 +289,9 @@ namespace taut
                        integrator.description() + " gains energy in large motions, here of body '" +
                            nonlinear + "'. Take 'automatic', 'Moreau-Jean' or 'backward Euler'" +
                            anyway);
-    if (const std::string turning = link_that_turns(constraints); !turning.empty())
+    if (!constraints.turning_rows().empty())
       throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
-                                          turning +
+                                          constraints[constraints.turning_rows().front()].name +
                                           "' turns. Take 'automatic' or 'backward Euler'" + anyway);
     const std::size_t rigid = resolution().first_rigid(); // by all ranks together
     if (rigid == no_link)
@@ -311,7 +299,7 @@ namespace taut
     throw EntryError(
         "Time/Scheme",
         to_text(integrator.description(), " fails at unilateral links that act as rigid, here '",
-                name_of(constraints, rigid), "': an error of its force keeps ", c.ringing(),
+                constraints.name(rigid), "': an error of its force keeps ", c.ringing(),
                 " of itself from step to step, so that it rings. Take 'automatic' or more "
                 "dissipation, give the link a Stiffness, set 'Time/Mass redistribution'",
                 anyway));

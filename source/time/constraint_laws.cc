@@ -14,6 +14,9 @@ namespace taut
     /// residuals of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
 
+    /// Part of their terms to which gaps are solved.
+    constexpr double known_to = 1e-12;
+
     /// A law of n pieces takes at most n linearisations on a single row, and tables have some tens
     /// of pieces. A row that needs more goes to and fro, which the residuals of the step show.
     constexpr int most_linearisations = 200;
@@ -234,13 +237,13 @@ namespace taut
     double sum = 0.;
     for (const std::size_t i : constraints.rows_but_cuts()) // cuts do not move
     {
-      // The gap of a rigid constraint that stays closed changes by rounding, times its whole force.
-      const bool is_rigid = row_of[i] == rows.size() && S[i] == 0.;
-      if (!constraints.counts(i) ||
-          (is_rigid && from.multiplier[i] != 0. && to.multiplier[i] != 0.))
+      if (!constraints.counts(i))
         continue;
       const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
                    L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];
+      // The gap of a rigid constraint that stays closed is rounding, but its force is not.
+      if (row_of[i] == rows.size() && S[i] == 0. && std::fabs(change) <= known_to * scale[i])
+        continue;
       double of_spring = 0.;
       if (row_of[i] < rows.size())
         of_spring = std::max(0., rows[row_of[i]].force(-gap));

@@ -182,10 +182,12 @@ namespace taut
       if (start == Start::equilibrium)
         result.reference.gap = state.distance;
       else
+      {
         close_rounded_gaps(constraints, motion, ends, result);
-      if (start != Start::equilibrium)
         check_penetration(structure, constraints, state.complementarity_gap);
+      }
     }
+
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
     /// closed: for numbers with five digits.
     constexpr double closed = 1e-5;

@@ -514,7 +514,7 @@ namespace taut
     if (!(of_rates.largest <= p.residuals.complementarity))
     {
       p.residuals.complementarity = of_rates.largest;
-      p.residuals.worst_constraint = constraints.number_of_any(of_rates.worst);
+      p.residuals.worst_constraint = constraints.number_of_first(of_rates.worst);
     }
     p.step.check().check_constraints(p.residuals);
     StepReport &report = p.step.report();

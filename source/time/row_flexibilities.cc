@@ -93,7 +93,7 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
         joints.push_back(i);
-    if (!constraints.shared())
+    if (!constraints.shared()) // allocates nothing
     {
       F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, nullptr, result);
       return result;

@@ -190,7 +190,7 @@ namespace taut
     residuals.worst_body = own_balance.worst_body();
     std::size_t worst = no_link;
     residuals.complementarity = own_contacts.residual(state, equations(), worst);
-    residuals.worst_constraint = constraints.number_of_any(worst);
+    residuals.worst_constraint = constraints.number_of_first(worst);
     residuals.drift = own_contacts.drift(state);
     own_check.check_constraints(residuals,
                                 equations().repeated_rows().partners(residuals.worst_constraint));

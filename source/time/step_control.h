@@ -34,8 +34,7 @@ namespace taut
   public:
     /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
     /// @p longest_steps: for each constraint of this rank the longest step in a contact; empty:
-    /// any. All are kept but @p constraints, by reference. Called by all ranks together, as
-    /// advance() is.
+    /// any. @p constraints is kept by reference. Called by all ranks together, as advance() is.
     StepControl(const Constraints &constraints, const StepParameters &parameters, double step,
                 long n_steps, bool may_halve, std::vector<LongestStep> longest_steps);
 

@@ -188,40 +188,29 @@ namespace taut
     if (!connected || !constraints.sliding_rows().empty())
       connected = std::make_unique<ConnectedBodies>(structure, constraints);
     const ConnectedBodies &groups = *connected;
-    struct Work
-    {
-      double a = 0., b = 0., c = 0.;
-    };
-    std::vector<Work> works(groups.n_groups());
+    std::vector<double> works(3 * groups.n_groups(), 0.); // a, b, c of each group
     for (std::size_t i = 0; i < q.size(); ++i)
     {
       if (!constraints.counts(i))
         continue;
-      Work &own = works[groups.of_constraint(i)];
-      own.a += .5 * rebounding[i] * of_rebounding[i];
-      own.b += rebounding[i] * (state.rate[i] + of_plain[i]);
-      own.c += q[i] * (state.rate[i] + .5 * of_plain[i]);
+      double *const own = &works[3 * groups.of_constraint(i)];
+      own[0] += .5 * rebounding[i] * of_rebounding[i];
+      own[1] += rebounding[i] * (state.rate[i] + of_plain[i]);
+      own[2] += q[i] * (state.rate[i] + .5 * of_plain[i]);
       if (!constraints.slides(i))
-        own.c += p[i] * contacts.increments()[i] / step;
+        own[2] += p[i] * contacts.increments()[i] / step;
     }
-    if (constraints.shared())
+    constraints.add_up(works);
+    const auto largest_part = [&](const std::size_t group)
     {
-      std::vector<double> sums;
-      for (const Work &own : works)
-        sums.insert(sums.end(), {own.a, own.b, own.c});
-      structure.communicator().sum(sums);
-      for (std::size_t g = 0; g < works.size(); ++g)
-        works[g] = {sums[3 * g], sums[3 * g + 1], sums[3 * g + 2]};
-    }
-    const auto largest_part = [](const Work &of)
-    {
-      if (of.a + of.b + of.c <= 0. || !(of.a > 0.))
+      const double a = works[3 * group], b = works[3 * group + 1], c = works[3 * group + 2];
+      if (a + b + c <= 0. || !(a > 0.))
         return 1.;
-      const double discriminant = of.b * of.b - 4. * of.a * std::min(0., of.c);
-      return std::min(1., std::max(0., (-of.b + std::sqrt(discriminant)) / (2. * of.a)));
+      const double discriminant = b * b - 4. * a * std::min(0., c);
+      return std::min(1., std::max(0., (-b + std::sqrt(discriminant)) / (2. * a)));
     };
     for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] += largest_part(works[groups.of_constraint(i)]) * rebounding[i];
+      q[i] += largest_part(groups.of_constraint(i)) * rebounding[i];
   }
 
   /// Sets the mean velocity over the step: that of the scheme alternates.

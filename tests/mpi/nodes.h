@@ -63,12 +63,8 @@ namespace verification
             const auto add = [all = all](const std::vector<double> &more)
             { all->insert(all->end(), more.begin(), more.end()); };
             add(view.constraints.of_links(*values, view.scene.links.size()));
-            std::vector<double> of_contact;
             for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
-            {
-              view.constraints.copy_of_contact(*values, c, of_contact);
-              add(of_contact);
-            }
+              add(view.constraints.of_contact(*values, c));
           }
           result.is_distributed = view.constraints.shared() != nullptr;
           result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());

@@ -80,6 +80,58 @@ subsection Time
 end
 """  # two joints between the same places
 
+ROPES = """set Generator = network
+set Gravity = 0, -9.81
+set Start = given
+subsection Network
+  set Masses = other, bob
+  set Links = first, second, plane, tie
+  subsection Mass other
+    set Position = 5, 0
+    set Motions = x, y
+    set Mass = 1
+  end
+  subsection Mass bob
+    set Position = 0, -1
+    set Motions = x, y
+    set Mass = 1
+    set Initial velocity = 1, 0, 0
+  end
+  subsection Link first
+    set Type = dropper
+    set Turns = true
+    set From = ground @ -0.3, 0
+    set To = bob
+    set Length = 1.0450307
+  end
+  subsection Link second
+    set Type = dropper
+    set Turns = true
+    set From = ground @ 0.3, 0
+    set To = bob
+    set Length = 1.05
+  end
+  subsection Link plane
+    set Type = stop
+    set From = ground
+    set To = bob
+    set Direction = 0.6, 0.8
+    set Gap = 0.05
+  end
+  subsection Link tie
+    set Type = stop
+    set From = ground
+    set To = other
+    set Direction = 0, 1
+    set Gap = 0.05
+  end
+end
+subsection Time
+  set Step = 1e-3
+  set End = 1
+  set Check steps = yes
+end
+"""
 CRADLE = """
 set Generator = network
 set Gravity   = 0, 0
@@ -179,10 +231,11 @@ def check_lines(name, one, other):
 def check_figures(name, one, other):
     """Figures of links and contacts are those of one process, in one order, and so is the worst contact."""
     expected, found = (json.loads((folder / "statistics.json").read_text()) for folder in (one, other))
-    for quantity, bound in (("relative_contact_energy", 1e-8), ("peak_over_mean", 1e-6)):
-        value, one_more = (of.get("certificate", {}).get(quantity, {"value": 0.}) for of in (expected, found))
-        if not abs(one_more["value"] - value["value"]) <= bound or (
-                value["value"] > 1.01 and one_more["largest_at"] != value["largest_at"]):
+    has_moved = expected["certificate"].get("steps", 0) > 0
+    for quantity, certain in (("relative_contact_energy", 1e-3), ("peak_over_mean", 1.01), ("contact_gap", 1.)) if has_moved else ():
+        value, one_more = (of["certificate"][quantity] for of in (expected, found))
+        if not abs(one_more["value"] - value["value"]) <= 1e-6 * value["value"] + 1e-8 or (
+                value["value"] > certain and one_more["largest_at"] != value["largest_at"]):
             errors.append(f"{name}: {quantity} is {one_more}, not {value}")
     for section in ("links", "contacts"):
         if section not in expected:
@@ -261,6 +314,7 @@ with tempfile.TemporaryDirectory() as name:
     for stem, end in (("en50318_2002_250", 0), ("hertz_cylinder", 0), ("block_on_block", 0), ("en50318_2002_250", .05),
                       ("string_on_stop", .2), ("block_impact", .05), ("bar_on_two_cables", .3)):
         check_scene(arguments.prm / f"{stem}.prm", scratch, end)
+    check_scene(pathlib.Path(__file__).parents[1] / "restart" / "caught_string.prm", scratch, .15)  # by steps that give energy
     line = str(arguments.prm / "en50318_2002_250.prm")
     stop = str(arguments.prm / "oscillator_with_stop.prm")
     out = ["--set", f"Output/Folder={scratch}/words", "--overwrite"]
@@ -281,6 +335,17 @@ with tempfile.TemporaryDirectory() as name:
     cradle.write_text(CRADLE)
     matrix_free = entries("Solver/Interface operator=matrix-free")
     check_same_words([str(cradle), *out, *matrix_free], 0)
+    # A stop and two ropes share the impulse at one mass, on the rank of the mass and on the root.
+    ropes = scratch / "ropes.prm"
+    ropes.write_text(ROPES)
+    check_same_words([str(ropes), *out, *matrix_free], 0)
+    # Links that keep their directions beside a contact of surfaces.
+    bodies = "messenger 1", "messenger 2", "messenger 3", "contact wire"
+    floor = {"Contacts": "floor", "Contact floor/Slave": "messenger 1", "Contact floor/Obstacle": "plane",
+             "Contact floor/Point": "0, -3", "Contact floor/Direction": "0, 1", "Time/End": "0.01", "Statistics/Window": ""}
+    check_same_words([str(arguments.prm / "line_of_cables_with_weights.prm"), *out, *matrix_free,
+                      *entries(*(f"{entry}={value}" for entry, value in floor.items()),
+                               *(f"Body {body}/Geometry=linearised" for body in bodies))], 0)
     # Two start in each other.
     check_same_words([str(cradle), *out, *matrix_free, *entries("Network/Link bc/Gap=-0.01", "Network/Link de/Gap=-0.02")], 1)
     # Nothing holds the parts of a wire along it; each has ends on other ranks.

@@ -435,7 +435,9 @@ Time: Step = 1e-3; End = 0.15; Scheme = generalised-alpha; Allow unsuitable sche
                            found.peak,
                            found.mean_peak,
                            found.mean_time};
-          result.worst = view.measures.label(found.energy_constraint).name;
+          result.worst = view.measures.label(found.energy_constraint).name + ", " +
+                         view.measures.label(found.momentum_constraint).name;
+          EXPECT_EQ(view.constraints.shared() != nullptr, processes.size() > 1);
         });
     std::smatch line;
     const std::string log = session.log();

@@ -156,21 +156,17 @@ namespace taut
     double added_up(double value) const;
 
     /// Values over the rows of the first @p n links of the scene, and of all rows of one of its
-    /// contacts of surfaces, on all ranks. Called by all ranks together.
-    std::vector<double> of_links(const std::vector<double> &values, std::size_t n) const;
-    void copy_of_links(const std::vector<double> &values, std::size_t n,
-                       std::vector<double> &to) const;
-    void copy_of_contact(const std::vector<double> &values, std::size_t contact,
-                         std::vector<double> &to) const;
+    /// contacts of surfaces, on all ranks, in the place of @p to. Called by all ranks together.
+    std::vector<double> of_links(const std::vector<double> &values, std::size_t n,
+                                 std::vector<double> to = {}) const;
+    std::vector<double> of_contact(const std::vector<double> &values, std::size_t contact,
+                                   std::vector<double> to = {}) const;
 
     /// Number of a row among those of all ranks, ascending with the row, those of cuts first; and
     /// back, no_link for a row that this rank does not have.
     std::size_t number(std::size_t i) const;
     std::size_t index(std::size_t number) const;
     std::size_t n_cuts_of_all() const { return n_all_cuts; }
-
-    /// The rows with these numbers that this rank has.
-    std::vector<std::size_t> here(const std::vector<std::size_t> &numbers) const;
 
     /// Each entry of vectors over the rows becomes the sum of what the ranks that have the row have
     /// there, by one message. Called by all ranks together, as are the next ones, to gather().
@@ -197,6 +193,9 @@ namespace taut
     /// Labels of rows of all ranks by their numbers, ascending. A rank that has a row names it.
     std::vector<Label> labels(const std::vector<std::size_t> &numbers) const;
 
+    /// Name of one row by its number, empty for no_link.
+    std::string name(std::size_t number) const;
+
     /// Names of rows for a message: "'a', 'b' and 3 more".
     static std::string names(const std::vector<Label> &labels);
     std::string names(const std::vector<std::size_t> &numbers) const
@@ -204,12 +203,11 @@ namespace taut
       return names(labels(numbers));
     }
 
-    /// The number of a row that some rank names by its index @p i, the largest such number; no_link
-    /// on other ranks, and if no rank names a row. And the lowest such number.
-    std::size_t number_of_any(std::size_t i) const;
+    /// The lowest number of the rows that ranks name by their indices @p i, no_link for none.
     std::size_t number_of_first(std::size_t i) const;
 
-    /// The numbers of all rows that some rank names by their indices, ascending.
+    /// The numbers of all rows that ranks name by their indices, ascending. All ranks that have a
+    /// row name it.
     std::vector<std::size_t> numbers_of(const std::vector<std::size_t> &rows) const;
 
     /// Each rank found values, and their rows by index, no_link for none. Each value becomes the
@@ -335,7 +333,7 @@ namespace taut
                         std::vector<std::array<double, 2>> &result) const;
 
     /// Row of the constraint of a link in the scene; no_link where this rank does not have it. And
-    /// how many links have an index on this rank.
+    /// how many links have an index, the same on all ranks.
     std::size_t index_of_link(std::size_t link) const
     {
       return link < row_index.size() ? row_index[link] : no_link;
@@ -355,8 +353,7 @@ namespace taut
 
     void check(const Rows &rows) const;
     void share(RowNumbers numbers);
-    void share_first(RowNumbers numbers, std::size_t n_cuts_of_all);
-    RowNumbers numbers_of_distributed() const;
+    void share_like(const SharedRows &others);
     void gather_cuts();
     void number_contacts();
     std::size_t n_segments() const { return first_segments.back(); }

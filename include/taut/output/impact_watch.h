@@ -37,7 +37,7 @@ namespace taut
 
     Communicator processes;
     const Constraints *rows = nullptr; ///< of the last step
-    std::vector<double> rate, force;   ///< of each of them after it [m/s, N]
+    std::vector<double> rate, force;   ///< of each row after the last step [m/s, N]
     double largest[2] = {0., 0.};      ///< largest rate of a displacement and of a rotation so far
     bool is_running = false;           ///< the start was recorded
     long n_steps = 0;                  ///< number of such steps

@@ -48,7 +48,7 @@ namespace taut
     const SceneBodies &structure;
 
     /// Its rows are those of the state. On several ranks, a rank may have those of its own bodies
-    /// alone: links, and Constraints::copy_of_contact(), have the values of all.
+    /// alone: links, and Constraints::of_contact(), have the values of all.
     const Constraints &constraints;
     const Reference &reference;
     const State &state;

@@ -157,10 +157,10 @@ namespace taut
     std::vector<Force> forces;
     bool is_automatic = false, is_adaptive = false;
     double largest_gap = 0.;                      ///< of the rows of this rank [m, rad]
-    std::size_t gap_row = no_link;                ///< with it
+    std::size_t gap_row = no_link;                ///< row with the largest gap
     Summary agreed;                               ///< where rows are distributed
-    std::vector<std::size_t> numbers;             ///< of the rows that it has, ascending
-    std::vector<Constraints::Label> labels;       ///< of these
+    std::vector<std::size_t> numbers;             ///< of the rows in the summary, ascending
+    std::vector<Constraints::Label> labels;       ///< of the rows in the summary
     mutable std::vector<double> largest, of_rows; ///< in found_now()
     mutable std::vector<std::size_t> number;
   };

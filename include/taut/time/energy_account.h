@@ -26,7 +26,7 @@ namespace taut
     double contact_time = 0., step = 0.;       ///< its shortest contact, and the step then [s]
     double motion_energy = 0.;                 ///< gained in large motions [J]
     double relative_motion_energy = 0.;        ///< over the scale [1]
-    std::size_t energy_constraint = no_link;   ///< number of the worst one; none: no energy
+    std::size_t energy_constraint = no_link;   ///< number of the worst constraint; none: no energy
     double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
     double momentum = 0.;                      ///< error of a contact [N s, N m s]
     double relative_momentum = 0.;             ///< over the impulse of a contact of its group [1]
