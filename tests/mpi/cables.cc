@@ -28,7 +28,8 @@ namespace
         figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
         1e-9);
     EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-9);
-    EXPECT_LT(relative_difference(one.probes, many.probes), 1e-9);
+    // Probes count from an equilibrium, and may be a small part of the displacements.
+    EXPECT_LT(largest_difference(one.probes, many.probes), 1e-9 * largest(one.displacement));
     const std::string matrix_free = "Solver/Interface operator=matrix-free";
     EXPECT_EQ(many.is_distributed,
               taut::Communicator(MPI_COMM_WORLD).size() > 1 &&
