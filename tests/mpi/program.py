@@ -231,10 +231,11 @@ def check_lines(name, one, other):
 def check_figures(name, one, other):
     """Figures of links and contacts are those of one process, in one order, and so is the worst contact."""
     expected, found = (json.loads((folder / "statistics.json").read_text()) for folder in (one, other))
-    has_moved = expected["certificate"].get("steps", 0) > 0
-    for quantity, certain in (("relative_contact_energy", 1e-3), ("peak_over_mean", 1.01), ("contact_gap", 1.)) if has_moved else ():
+    # What droppers that catch give amplifies the rounding of other parts.
+    bounds = (("relative_contact_energy", 1e-3, 1e-3), ("peak_over_mean", 1e-6, 1.01), ("contact_gap", 1e-6, 1.))
+    for quantity, bound, certain in bounds if "certificate" in expected else ():
         value, one_more = (of["certificate"][quantity] for of in (expected, found))
-        if not abs(one_more["value"] - value["value"]) <= 1e-6 * value["value"] + 1e-8 or (
+        if not abs(one_more["value"] - value["value"]) <= bound * value["value"] + 1e-8 or (
                 value["value"] > certain and one_more["largest_at"] != value["largest_at"]):
             errors.append(f"{name}: {quantity} is {one_more}, not {value}")
     for section in ("links", "contacts"):
