@@ -59,18 +59,19 @@ namespace taut
       std::vector<double> &amplitude = solution.mode_amplitude;
       if (amplitude.empty())
         return;
+      std::vector<char> is_closed(problem.size(), 0);
+      for (const std::size_t i : set)
+        is_closed[i] = 1;
       std::vector<double> motions(amplitude.size(), 0.);
       for (std::size_t k = 0; k < amplitude.size(); ++k)
       {
         const LinearForm &mode = problem.null_space[k];
         for (std::size_t e = 0; e < mode.index.size(); ++e)
-        {
-          const std::size_t i = mode.index[e];
-          motions[k] = std::max(motions[k], problem.free_gap[i] != 0.
-                                                ? std::numeric_limits<double>::infinity()
-                                                : std::abs(mode.value[e] * amplitude[k]) /
-                                                      std::sqrt(matrix.diagonal(i)));
-        }
+          if (const std::size_t i = mode.index[e]; is_closed[i])
+            motions[k] = std::max(motions[k], problem.free_gap[i] != 0.
+                                                  ? std::numeric_limits<double>::infinity()
+                                                  : std::abs(mode.value[e] * amplitude[k]) /
+                                                        std::sqrt(matrix.diagonal(i)));
       }
       if (problem.shared)
         problem.shared->max(motions);

@@ -3,7 +3,8 @@
 // straight line, however many parts it is cut in, with each form of the interface operator. All
 // slopes and moments of its cuts are rounding there or cancel. Source: w(s) = u0 + (u1 - u0) s / L.
 // So is a beam without load beside a string with one, whose droppers are slack. Source: w = F a b /
-// (T L) under the force.
+// (T L) under the force. So are strings that joints join, below slack droppers and above open
+// stops.
 #include "scene_tests.h"
 
 using namespace verification;
@@ -94,6 +95,42 @@ TEST(CutsAtRest, a_wire_without_loads_stays_beside_one_with_a_load)
                   EXPECT_NEAR(displacement(view, 0, place), under_force, 1e-9);
                   for (const double s : {3., 10., 17.})
                     EXPECT_NEAR(displacement(view, 1, s), 0., 1e-12);
+                });
+    }
+}
+
+TEST(CutsAtRest, joined_wires_without_loads_stay_above_open_stops)
+{
+  const auto wire = [](const std::string &name, const std::string &y, const std::string &more)
+  {
+    return "Wire " + name + ": From = 0, " + y + "; To = 40, " + y + "; Mass per length = 1; " +
+           more + "\nSupport of " + name + ": Wire = " + name + "; Positions = 0, 40\n";
+  };
+  const std::string text =
+      "Gravity = 0, 0; Start = equilibrium\nTime: End = 0\n" +
+      wire("upper", "3",
+           "Components = beam; Tension = 1e3; Bending stiffness = 500; Element size = .5") +
+      wire("middle", "2", "Components = string; Tension = 1e4; Element size = .5") +
+      wire("lower", "1", "Components = string; Tension = 1e3; Element size = 1") +
+      "Link dropper: Type = dropper; From = upper @ 1:2:39; To = middle @ 1:2:39; Direction = 0, "
+      "-1;"
+      " Law = table; Law points = 0.001: 10, 0.01: 500\n"
+      "Link joint: Type = joint; From = middle @ 1:1:39; To = lower @ 1:1:39; Direction = 0, -1\n"
+      "Link stop: Type = stop; From = ground; To = lower @ 1:3:39; Direction = 0, 1; Gap = 0.001\n"
+      "Load pull: On = upper @ 12; Direction = 0, 1; Magnitude = -200\n";
+  for (const char *form : {"assembled dense", "assembled sparse", "matrix-free"})
+    for (const char *parts : {"2", "3", "6", "8"})
+    {
+      SCOPED_TRACE(std::string(form) + ", " + parts + " parts");
+      run_scene(text,
+                {std::string("Partition/Number of substructures=") + parts,
+                 std::string("Solver/Interface operator=") + form},
+                [&](const taut::StepView &view)
+                {
+                  EXPECT_LT(displacement(view, 0, 12.), -1.);
+                  for (const std::size_t k : {1, 2})
+                    for (const double s : {3., 10., 27.})
+                      EXPECT_NEAR(displacement(view, k, s), 0., 1e-12);
                 });
     }
 }
