@@ -313,7 +313,8 @@ with tempfile.TemporaryDirectory() as name:
         rows_on_ranks = [*SCENES[-1], *entries(Solver__Interface_operator="matrix-free")]
         two = [[*scene, "--set", "Partition/Number of substructures=4"] for scene in (rows_on_ranks, SCENES[1], SCENES[0])]
         check_killed(ranks, arguments.parallel, 2, two, rng)
-        for scene, bound in (SCENES[0], 1e-9), (SCENES[2], 1e-8), (rows_on_ranks, 1e-8):
+        rebounds = [*rows_on_ranks, *entries("Time/Moreau-Jean/Restitution=0.6", Time__Scheme="Moreau-Jean")]
+        for scene, bound in (SCENES[0], 1e-9), (SCENES[2], 1e-8), (rows_on_ranks, 1e-8), (rebounds, 1e-8):
             check_other_ranks(ranks, scene, bound)
         check_shared_mesh(ranks)
     if arguments.bad:
