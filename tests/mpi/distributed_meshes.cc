@@ -38,15 +38,22 @@ namespace
     return taut::Communicator(MPI_COMM_WORLD);
   }
 
-  /// Compares a run of all ranks in so many parts with one of one process and without cuts.
+  /// At least one part for each rank: with fewer a mesh stays whole.
+  Overrides in_parts(const unsigned int n)
+  {
+    return {"Partition/Number of substructures=" +
+            std::to_string(std::max<std::size_t>(n, world().size()))};
+  }
+
+  /// Compares a run of all ranks, in_parts() if @p overrides say nothing else, with one of one
+  /// process and without cuts.
   void expect_same(const std::string &title, const std::string &text, const unsigned int n_parts,
                    const Overrides &overrides = {})
   {
     SCOPED_TRACE(title);
-    const Overrides in_parts = {"Partition/Number of substructures=" + std::to_string(n_parts)};
     const NodeRecord one =
         record_nodes_of(text, overrides + Overrides{"Partition/Number of substructures=1"}, {});
-    const NodeRecord many = record_nodes_of(text, overrides + in_parts, world());
+    const NodeRecord many = record_nodes_of(text, in_parts(n_parts) + overrides, world());
     ASSERT_FALSE(one.probes.empty());
     ASSERT_FALSE(one.force.empty());
     const auto check = [&](const std::string &what, const std::vector<double> &a,
@@ -425,7 +432,7 @@ end
 // shared evenly.
 TEST(Ranks, cells_of_a_solid_are_on_one_rank_each)
 {
-  const Overrides parts = {"Partition/Number of substructures=8"};
+  const Overrides parts = in_parts(8);
   for (const std::string &distribution : distributions)
   {
     expect_shared(block(""), parts + shared_by("block", distribution));
@@ -440,7 +447,7 @@ TEST(Ranks, cells_are_on_each_rank_again_for_a_run_of_its_own)
   for (const std::string &distribution : distributions)
   {
     Session session(block(""),
-                    Overrides{"Partition/Number of substructures=8", "Output/Field interval=0"} +
+                    in_parts(8) + Overrides{"Output/Field interval=0"} +
                         shared_by("block", distribution),
                     world());
     const taut::CustomBody &body = session.simulation().scene().bodies[0];
@@ -514,13 +521,14 @@ TEST(Ranks, distributed_meshes_have_hanging_nodes)
 // few coarse cells keep the iterations within a tenth. Expected: the run of one process.
 TEST(Ranks, parts_of_a_mesh_need_no_more_iterations)
 {
-  const Overrides parts = {"Partition/Number of substructures=27",
-                           "Solver/Interface operator=matrix-free"};
   const auto compare = [&](const std::string &title, const std::string &text,
-                           const std::string &distribution, const double bound)
+                           const unsigned int n_parts, const std::string &distribution,
+                           const double bound)
   {
     SCOPED_TRACE(title);
-    const Overrides overrides = parts + shared_by("cube", distribution);
+    const Overrides overrides = in_parts(n_parts) +
+                                Overrides{"Solver/Interface operator=matrix-free"} +
+                                shared_by("cube", distribution);
     const std::array<int, 2> here = iterations(record_nodes_of(text, overrides, world())),
                              one = iterations(record_nodes_of(text, overrides, {}));
     EXPECT_GT(one[0], 0);
@@ -528,9 +536,9 @@ TEST(Ranks, parts_of_a_mesh_need_no_more_iterations)
     EXPECT_LE(here[0], bound * one[0]);
     figure(ranks_and_comma() + title, double(here[0]) / one[0]);
   };
-  compare("METIS", cube_on_floor(10), "METIS", 1.03);
-  compare("METIS, refined", cube_on_floor(2, 2), "METIS", 1.03);
-  compare("p4est", cube_on_floor(2, 2), "p4est", 1.1);
+  compare("METIS", cube_on_floor(10), 27, "METIS", 1.03);
+  compare("METIS, refined", cube_on_floor(2, 2), 27, "METIS", 1.03);
+  compare("p4est", cube_on_floor(2, 3), 64, "p4est", 1.1);
 }
 
 // Claim: a mesh whose new nodes depend on all coarse cells stays whole, unless the ranks refine it
@@ -544,9 +552,15 @@ TEST(Ranks, meshes_that_cannot_be_cut_stay_whole)
                            "Network/Link spring/To=block @ 0.5, 0.8",
                            "Output/Probe middle/Point=block @ 0.5, 0.9"};
   for (const std::string &distribution : distributions)
-    expect_same(distribution, block("subsection Time\n  set End = 0\nend\n"), 6,
+  {
+    const std::string at_rest = "subsection Time\n  set End = 0\nend\n";
+    expect_same(distribution, block(at_rest), 6,
                 plate + Overrides{"Body block/Displacement=0: 0, 0"} +
                     shared_by("block", distribution));
+    const Overrides few = {"Partition/Number of substructures=3"}; // on four ranks and more
+    expect_same(distribution + ", few parts", block(at_rest), 3,
+                few + shared_by("block", distribution));
+  }
 }
 
 // Claim: so do tetrahedra of a file, which METIS shares out, and a user's body on a distributed
@@ -566,7 +580,7 @@ TEST(Ranks, distributed_meshes_of_files_and_of_users)
     expect_same("tetrahedra of degree " + std::to_string(degree), cube_of_tetrahedra(file.path()),
                 6, of_degree);
   }
-  expect_shared(cube_of_tetrahedra(file.path()), {"Partition/Number of substructures=8"});
+  expect_shared(cube_of_tetrahedra(file.path()), in_parts(8));
   for (const std::string form : {"assembled dense", "matrix-free"})
     expect_same("membrane, " + form, membrane_over_stop, 7, {"Solver/Interface operator=" + form});
 }
@@ -593,9 +607,8 @@ TEST(Ranks, p4est_takes_no_tetrahedra)
   dealii::Triangulation<3> tetrahedra;
   dealii::GridGenerator::subdivided_hyper_cube_with_simplices(tetrahedra, 2);
   const MeshFile file(tetrahedra);
-  const std::string message = error_of(
-      cube_of_tetrahedra(file.path()),
-      Overrides{"Partition/Number of substructures=6"} + shared_by("cube", "p4est"), world());
+  const std::string message =
+      error_of(cube_of_tetrahedra(file.path()), in_parts(6) + shared_by("cube", "p4est"), world());
   // One process shares no mesh.
   EXPECT_EQ(has(message, "p4est takes quadrilaterals and hexahedra; take METIS"),
             world().size() > 1)
@@ -612,7 +625,7 @@ TEST(Ranks, mistakes_on_distributed_meshes_are_those_of_whole_ones)
       {"Body block/Displacement=7: 0, 0"},
       {"Body block/Materials=1: 1e7, 0.3, 2000"},
   };
-  const Overrides parts = {"Partition/Number of substructures=6"};
+  const Overrides parts = in_parts(6);
   for (const Overrides &mistake : mistakes)
   {
     SCOPED_TRACE(mistake.front());

@@ -20,6 +20,8 @@ parser.add_argument("--hook", default="build/tests/benchmarks/libheap_peak.so")
 parser.add_argument("--mpiexec", default="mpirun")
 parser.add_argument("--refinements", type=int, default=3)
 arguments = parser.parse_args()
+if not pathlib.Path(arguments.hook).exists():
+    sys.exit(f"there is no '{arguments.hook}': build the target heap_peak")
 
 print("| ranks | DoFs | parts | iterations, METIS | heap [MB] | iterations, p4est | heap [MB] |\n|---|---|---|---|---|---|---|")
 for ranks in arguments.ranks:
