@@ -75,6 +75,7 @@ namespace taut
       place.fixed = support.fixed;
       place.stiffness = support.stiffness;
       place.damping = support.damping;
+      place.free_of_force = support.fixed ? 0. : support.prescribed(0., 0.);
       if (place.is_here)
       {
         place.body = terms[0].substructure;
@@ -146,9 +147,9 @@ namespace taut
       if (place.fixed)
         values[i] = place.mass.dot(state.A[k]) - form.dot(state.balance[k]);
       else
-        values[i] =
-            -place.stiffness * (form.dot(reference.displacement[k]) + form.dot(state.U[k])) -
-            place.damping * form.dot(state.V[k]);
+        values[i] = -place.stiffness * (form.dot(reference.displacement[k]) + form.dot(state.U[k]) -
+                                        place.free_of_force) -
+                    place.damping * form.dot(state.V[k]);
     }
   }
 

@@ -57,6 +57,7 @@ namespace taut
       LinearForm form; ///< of the supported displacement
       LinearForm mass; ///< form . M, for a prescribed motion
       double stiffness = 0., damping = 0.;
+      double free_of_force = 0.; ///< displacement where the spring is [m, rad]
       bool fixed = false;
     };
 

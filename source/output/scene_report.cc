@@ -117,7 +117,11 @@ namespace taut
         if (s.fixed)
           held << "u(t) = " << s.prescribed.formula();
         else
+        {
           held << s.stiffness << " N/m, " << s.damping << " N s/m";
+          if (!s.prescribed.is_zero())
+            held << ", free of force at u = " << s.prescribed.formula();
+        }
         supports.add(s.name, scene.wires[s.wire].name, positions(s.positions),
                      motions[static_cast<int>(s.motion)], held.str());
       }

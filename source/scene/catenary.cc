@@ -290,15 +290,13 @@ namespace taut
     const Speed speed = speed_of(item, section);
     contact_link.speed = speed.constant;
     contact_link.travel = speed.travel;
-    contact_link.profile =
-        Expression(item.profile, section + "/Height profile", Expression::Variables::position);
     contact_link.faster_than_waves = item.faster_than_waves;
     const bool has_wires = line.size() > 1 || line.front().contact_wires().size() > 1;
     if (item.strip_distance == 0.)
     {
       if (has_wires)
         contact_link.strip = name;
-      add_strip(contact_link, item.start, has_wires, line, scene);
+      add_strip(contact_link, item.profile, item.start, has_wires, line, scene);
       return;
     }
     let_head_pitch(name, item, head, scene);
@@ -308,13 +306,13 @@ namespace taut
       const double arm = (strip == 1 ? -.5 : .5) * item.strip_distance;
       contact_link.name = name + " strip " + std::to_string(strip);
       contact_link.from.place = {arm};
-      add_strip(contact_link, item.start + arm, has_wires, line, scene);
+      add_strip(contact_link, item.profile, item.start + arm, has_wires, line, scene);
     }
   }
 
-  /// A link of a strip at x to each contact wire.
-  void Catenary::add_strip(Link strip, const double x, const bool has_several, const Line &line,
-                           Scene &scene) const
+  /// A link of a strip at x to each contact wire. @p profile: a formula in x.
+  void Catenary::add_strip(Link strip, const std::string &profile, const double x,
+                           const bool has_several, const Line &line, Scene &scene) const
   {
     const std::string name = strip.name;
     for (const TensionLength &part : line)
@@ -323,6 +321,9 @@ namespace taut
         if (has_several)
           strip.name = name + " on " + scene.wires[wire].name;
         strip.to = {Attachment::Kind::wire, wire, x - part.begin()};
+        strip.profile =
+            Expression(along_wire(profile, part.begin(), true), strip.origin + "/Height profile",
+                       Expression::Variables::position);
         // A rail follows its track.
         strip.cant = scene.wires[wire].has_lateral ? items.track_cant(part.begin()) : Expression();
         scene.links.push_back(strip);
@@ -369,6 +370,7 @@ namespace taut
     const std::vector<double> uplifts =
         parse_positions(uplift_positions, "Catenary/Uplift positions");
     check_uplift_positions(uplifts, line);
+    check_point_masses(line);
     check_pantographs(line);
     check_cant(line);
     for (std::size_t i = 0; i < line.size(); ++i)

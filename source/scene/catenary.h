@@ -73,7 +73,9 @@ namespace taut
     void add_masses(const std::string &name, const PantographItem &item, Scene &scene) const;
     void let_head_pitch(const std::string &name, const PantographItem &item, std::size_t head,
                         Scene &scene) const;
-    void add_strip(Link strip, double x, bool has_several, const Line &line, Scene &scene) const;
+    void check_point_masses(const Line &line) const;
+    void add_strip(Link strip, const std::string &profile, double x, bool has_several,
+                   const Line &line, Scene &scene) const;
     void add_base(const std::string &name, const PantographItem &item, std::size_t first,
                   Scene &scene) const;
     void add_bump_stops(const std::string &name, const PantographItem &item, std::size_t first,

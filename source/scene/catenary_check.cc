@@ -146,6 +146,27 @@ namespace taut
     }
   }
 
+  /// Each is on a wire of some tension length, or it would be left out.
+  void Catenary::check_point_masses(const Line &line) const
+  {
+    for (std::size_t i = 0; i < items.masses.items.size(); ++i)
+    {
+      const LineMassItem &item = items.masses.items[i];
+      const std::string entry = items.masses.title(i) + "/Positions";
+      for (const double x : parse_positions(item.positions, entry))
+        if (std::none_of(line.begin(), line.end(),
+                         [&](const TensionLength &part) {
+                           return x >= part.begin() && x <= part.end() &&
+                                  !part.wires_of(item).empty();
+                         }))
+        {
+          const auto [first, last] = reach(line);
+          throw EntryError(entry, to_text("no wire '", item.wire, "' is at ", x,
+                                          " m; the line is from ", first, " to ", last, " m"));
+        }
+    }
+  }
+
   void Catenary::check_lists(const PantographItem &item, const std::string &section) const
   {
     for (const auto &[entry, usual] : {std::pair("Masses", "7.2, 15 kg"),

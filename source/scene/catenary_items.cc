@@ -8,6 +8,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <regex>
 
@@ -76,27 +79,60 @@ namespace taut
 
   namespace
   {
-    /// A formula in s = x as one in the s of a wire that begins at x = @p begin [m]. Tables take
-    /// 's+120' as their variable.
-    std::string along_wire(const std::string &formula, const double begin)
+    /// s with an offset, as tables take it.
+    std::string s_plus(const double offset)
     {
-      if (begin == 0.)
-        return formula;
-      const std::string shifted = to_text("s+", std::setprecision(17), begin);
-      static const std::regex call("\\btable\\s*\\([^()]*\\)"), s("\\bs\\b"),
-          variable(",\\s*s\\s*(?=[,)])");
-      std::string result;
-      std::size_t end = 0;
-      for (std::sregex_iterator at(formula.begin(), formula.end(), call), last; at != last; ++at)
-      {
-        result +=
-            std::regex_replace(formula.substr(end, at->position() - end), s, "(" + shifted + ")") +
-            std::regex_replace(at->str(), variable, ", " + shifted);
-        end = at->position() + at->length();
-      }
-      return result + std::regex_replace(formula.substr(end), s, "(" + shifted + ")");
+      return to_text(std::setprecision(17), offset < 0. ? "s-" : "s+", std::fabs(offset));
+    }
+
+    /// What stands in the brackets of a table of s or s + a, as one of s + a + @p begin. With
+    /// @p is_of_s it is of s where it does not say of what.
+    std::string table_along_wire(const std::string &arguments, const double begin,
+                                 const bool is_of_s)
+    {
+      static const std::regex variable("s\\s*([+-]\\s*[0-9.]+(?:[eE][+-]?[0-9]+)?)?");
+      std::vector<std::string> words = split(arguments, ',');
+      bool is_shifted = false;
+      std::smatch parts;
+      for (std::size_t i = 2; i < words.size(); ++i)
+        if (std::regex_match(words[i], parts, variable))
+        {
+          std::string offset = parts.str(1);
+          offset.erase(std::remove(offset.begin(), offset.end(), ' '), offset.end());
+          words[i] = s_plus(begin + (offset.empty() ? 0. : std::strtod(offset.c_str(), nullptr)));
+          is_shifted = true;
+        }
+      if (!is_shifted && is_of_s && words.size() >= 2)
+        words.insert(words.begin() + 2, s_plus(begin));
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : ", ") + word;
+      return text;
     }
   } // namespace
+
+  std::string along_wire(const std::string &formula, const double begin, const bool is_of_s)
+  {
+    if (begin == 0.)
+      return formula;
+    static const std::regex opening("\\btable\\s*\\("), s("\\bs\\b");
+    const std::string shifted = "(" + s_plus(begin) + ")";
+    std::string result;
+    std::size_t at = 0;
+    for (std::smatch match; std::regex_search(formula.begin() + static_cast<std::ptrdiff_t>(at),
+                                              formula.end(), match, opening);)
+    {
+      const std::size_t found = at + match.position(), first = found + match.length();
+      std::size_t end = first;
+      for (int depth = 1; end < formula.size(); ++end)
+        if ((depth += formula[end] == '(' ? 1 : formula[end] == ')' ? -1 : 0) == 0)
+          break;
+      result += std::regex_replace(formula.substr(at, found - at), s, shifted) + match.str() +
+                table_along_wire(formula.substr(first, end - first), begin, is_of_s);
+      at = end;
+    }
+    return result + std::regex_replace(formula.substr(at), s, shifted);
+  }
 
   Wire LineWireItem::wire(const std::string &name, const std::string &section, const Coordinates &a,
                           const Coordinates &b) const
@@ -111,7 +147,7 @@ namespace taut
     wire.tension = tension;
     wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
     const auto remaining = [&](const std::string &formula, const char *const entry)
-    { return remaining_share(along_wire(formula, a.x), wire.origin + entry); };
+    { return remaining_share(along_wire(formula, a.x, true), wire.origin + entry); };
     wire.remaining.mass = remaining(remaining_mass, "/Remaining mass");
     wire.remaining.bending_stiffness = remaining(remaining_bending, "/Remaining bending stiffness");
     wire.degree = degree;

@@ -10,6 +10,10 @@
 
 namespace taut
 {
+  /// A formula in s = x, e.g. 's/10 + table(FILE.csv, column, s)', as one in the s of a wire that
+  /// begins at x = @p begin [m]. With @p is_of_s a table is of s where it does not say of what.
+  std::string along_wire(const std::string &formula, double begin, bool is_of_s = false);
+
   /// A wire of an overhead line, without its places.
   struct LineWireItem
   {

@@ -191,6 +191,11 @@ namespace taut
                "' has no slope; only the component beam has");
         if (!support.fixed && support.stiffness == 0. && support.damping == 0.)
           fail(support, "Stiffness", what, "an elastic support needs a Stiffness or a Damping");
+        if (!support.fixed && support.prescribed.depends_on_time())
+          fail(
+              support, "Displacement", what,
+              "the spring of an elastic support is free of force at one place: give a number; what "
+              "moves is a fixed support, or a mass with a Prescribed motion and a link");
       }
       check_held_once(scene);
       for (const PointMass &mass : scene.point_masses)

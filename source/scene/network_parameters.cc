@@ -120,7 +120,9 @@ namespace taut
     prm.add_parameter("Type", kind,
                       "'fixed': displacement prescribed; 'elastic': spring and damper",
                       Selection("fixed|elastic"));
-    prm.add_parameter("Displacement", displacement, "Of a fixed support, a formula in t [m, rad]");
+    prm.add_parameter("Displacement", displacement,
+                      "Of a fixed support, a formula in t; of an elastic one a number: where "
+                      "its spring is free of force [m, rad]");
     prm.add_parameter("Stiffness", stiffness, "Of an elastic support [N/m, N m/rad]",
                       not_negative());
     prm.add_parameter("Damping", damping, "Of an elastic support [N s/m, N m s/rad]",

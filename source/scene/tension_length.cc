@@ -57,18 +57,8 @@ namespace taut
     {
       support.name = first + " " + std::to_string(i + 1);
       support.positions = {s[i]};
-      support.prescribed = Expression(support.fixed ? displacement[i] : 0.);
+      support.prescribed = Expression(displacement[i]);
       scene.supports.push_back(support);
-      if (support.fixed || support.stiffness * displacement[i] == 0.)
-        continue;
-      // The spring is free of force at its height.
-      Load load;
-      load.name = support.name + " height";
-      load.origin = support.origin;
-      load.target = {Attachment::Kind::wire, support.wire, s[i]};
-      load.direction = scene.wires[support.wire].axis(support.motion);
-      load.magnitude = Expression(support.stiffness * displacement[i]);
-      scene.loads.push_back(load);
     }
   }
 
@@ -120,21 +110,25 @@ namespace taut
       add_arms(contact, masts);
   }
 
+  std::vector<std::size_t> TensionLength::wires_of(const LineMassItem &item) const
+  {
+    std::vector<std::size_t> result;
+    for (const std::size_t wire : contacts)
+      if (item.wire == scene.wires[wire].name || item.wire == "contact")
+        result.push_back(wire);
+    if (!items.is_rail && (item.wire == scene.wires[messenger].name || item.wire == "messenger"))
+      result.push_back(messenger);
+    return result;
+  }
+
   void TensionLength::add_point_masses()
   {
     for (std::size_t i = 0; i < items.masses.items.size(); ++i)
     {
       const LineMassItem &item = items.masses.items[i];
       const std::string title = items.masses.title(i);
-      std::vector<std::size_t> wires = contacts;
-      if (!items.is_rail)
-        wires.push_back(messenger);
-      for (const std::size_t wire : wires)
+      for (const std::size_t wire : wires_of(item))
       {
-        const bool is_messenger = !items.is_rail && wire == messenger;
-        if (item.wire != scene.wires[wire].name &&
-            item.wire != (is_messenger ? "messenger" : "contact"))
-          continue;
         PointMass mass{named(items.masses.names[i]), title, wire, {}, item.mass, true};
         for (const double x : parse_positions(item.positions, title + "/Positions"))
           if (x >= begin() && x <= end())

@@ -31,6 +31,9 @@ namespace taut
     void add_supports();
     void add_point_masses();
 
+    /// Those that a point mass is on, where it is beside them.
+    std::vector<std::size_t> wires_of(const LineMassItem &item) const;
+
     /// Probes of the contact wire at places x [m], or at all inner masts; those beyond its ends are
     /// left out.
     void add_probes(const std::vector<double> &x);

@@ -37,6 +37,7 @@ namespace taut
         {
           K->add(dof, dof, support.stiffness);
           C->add(dof, dof, support.damping);
+          constant_force[dof] += support.stiffness * support.prescribed(0., 0.);
           if (support.stiffness > 0.)
             sprung_dofs.push_back(dof);
         }

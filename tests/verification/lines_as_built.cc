@@ -287,6 +287,10 @@ TEST(LinesAsBuilt, point_masses_hang_at_their_places)
               for (const double x : {5., 15., 30.})
                 EXPECT_NEAR(displacement(view, 1, x), -sag(x, 40., g, T, {{15., m * g}}), 1e-10);
             });
+  const std::string mass = "Catenary: Point masses = insulator; Begin = 100\n"
+                           "Catenary/Point mass insulator: Mass = 3; Positions = ";
+  EXPECT_TRUE(has(error_of([&] { Session(bare_strings + mass + "15\n"); }),
+                  "no wire 'contact' is at 15 m; the line is from 100 to 140 m"));
 }
 
 TEST(LinesAsBuilt, stitch_wires_take_their_tension_from_the_messenger)
@@ -367,6 +371,76 @@ TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
                                                "Catenary/Supports/Messenger damping=300"});
                       }),
                   "a rigid support has none"));
+}
+
+// Claim: springs of supports at other heights than the first carry what hangs on them. Expected:
+// the weight.
+TEST(LinesAsBuilt, springs_of_supports_at_heights_carry_the_weight)
+{
+  const Overrides rail = {"Catenary/Kind=conductor rail", "Catenary/Contact wire/Model=beam",
+                          "Catenary/Contact wire/Bending stiffness=2e5",
+                          "Catenary/Supports/Arm stiffness=1e6"};
+  for (const auto &[kind, mass] : {std::pair(Overrides{}, 1.8), {rail, 1.}})
+  {
+    double sum = 0., largest = 0.;
+    run_scene(bare_strings,
+              kind + Overrides{"Catenary/Number of spans=3", "Catenary/Heights=0.1, 0.3, -0.1, 0",
+                               "Catenary/Supports/Messenger stiffness=2e5"},
+              [&](const taut::StepView &view)
+              {
+                sum = 0.;
+                for (const double force : view.supports)
+                {
+                  sum += force;
+                  largest = std::max(largest, std::fabs(force));
+                }
+              });
+    EXPECT_NEAR(sum, mass * 9.81 * 120., 1e-6 * largest);
+    EXPECT_LT(largest, 2. * mass * 9.81 * 120.);
+  }
+  EXPECT_TRUE(has(error_of(
+                      []
+                      {
+                        Session("Generator = network\nNetwork: Wires = w; Supports = s\n"
+                                "Network/Wire w: To = 1, 0; Components = string; Tension = 1; "
+                                "Mass per length = 1\n"
+                                "Network/Support s: Wire = w; Type = elastic; Stiffness = 1; "
+                                "Displacement = t\n");
+                      }),
+                  "is free of force at one place"));
+}
+
+// Claim: formulas and tables of a line are of x, wherever it begins. Expected: the line that begins
+// at x = 0.
+TEST(LinesAsBuilt, formulas_of_a_line_are_of_x_wherever_it_begins)
+{
+  const auto forces = [](const double begin, const std::string &variable)
+  {
+    std::string rows = "x,m\n";
+    for (int i = 0; i <= 60; ++i)
+      rows += number(begin + 10. * i) + "," +
+              number(1. - .2 * std::exp(-std::pow(.1 * i - 1., 2))) + "\n";
+    const File wear("wear (new).csv", rows);
+    const auto at = [&](const double x) { return number(begin + x); };
+    return forces_with(
+        {"Catenary/Begin=" + at(0.),
+         "Catenary/Contact wire/Remaining mass=table(" + wear.path + ", m" + variable + ")",
+         "Catenary/Contact wire/Vertical load=-table(" + wear.path + ", m, s)*(s-(" + at(0.) +
+             "))/100",
+         "Catenary/Pantograph pantograph/Height profile=0.01*exp(-(s-(" + at(62.) + "))^2)",
+         "Catenary/Pantograph pantograph/Start=" + at(60.),
+         "Catenary/Uplift positions=" + at(240.)});
+  };
+  const std::vector<double> expected = forces(0., "");
+  EXPECT_GT(largest_difference(expected, forces_with({})), .01 * largest(expected));
+  for (const double begin : {100., -50.})
+    for (const std::string variable : {"", ", s", ", cubic", ", s - 0, cubic"})
+    {
+      const std::vector<double> other = forces(0., variable), found = forces(begin, variable);
+      EXPECT_LT(figure("from " + number(begin) + variable,
+                       largest_difference(other, found) / largest(other)),
+                1e-7);
+    }
 }
 
 TEST(LinesAsBuilt, bump_stops_and_lift_of_a_pantograph_act_as_their_formulas)

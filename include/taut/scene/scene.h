@@ -159,7 +159,7 @@ namespace taut
     std::vector<double> positions; ///< s [m]
     WireMotion motion = WireMotion::transverse;
     bool fixed = true;     ///< displacement prescribed; otherwise spring and damper to the ground
-    Expression prescribed; ///< u(t) [m, rad], if fixed
+    Expression prescribed; ///< u(t), if fixed; else u where the spring is free of force [m, rad]
     double stiffness = 0.; ///< [N/m, N m/rad], if not fixed
     double damping = 0.;   ///< [N s/m, N m s/rad], if not fixed
   };
