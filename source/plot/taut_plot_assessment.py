@@ -32,13 +32,17 @@ def number(value, factor, unit, digits):
     return f"{factor * value:.{digits}f} {unit}".strip()
 
 
+def between(low, high):
+    """Texts of limits, of which one may be None."""
+    return f"at most {high}" if low is None else f"at least {low}" if high is None else f"{low} to {high}"
+
+
 def limits(entry, factor, unit, digits):
     low, high = entry.get("expected", (None, None))
     if low is None and high is None:
         return ""
-    if low is None or high is None:
-        return ("at most " if low is None else "at least ") + number(high if low is None else low, factor, unit, digits)
-    return f"{number(low, factor, '', digits)} to {number(high, factor, unit, digits)}"
+    return between(None if low is None else number(low, factor, unit if high is None else "", digits),
+                   None if high is None else number(high, factor, unit, digits))
 
 
 def kind(entry):

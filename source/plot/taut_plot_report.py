@@ -42,7 +42,8 @@ def shown(key, entry):
 
     limits = entry.get("expected")
     return (f"{text_of(scaled(value))} {'' if unit == '1' else unit}".strip(),
-            f"{text_of(scaled(limits[0]))} to {text_of(scaled(limits[1]))}" if limits else "",
+            assessment.between(*[None if limit is None else text_of(scaled(limit)) for limit in limits])
+            if limits and limits != [None, None] else "",
             {True: "inside", False: "outside"}.get(entry.get("inside"), ""))
 
 

@@ -340,6 +340,7 @@ def check_report(folder, script, cells, pictures):
     text = path.read_text(encoding="utf-8")
     report = Report(text)
     errors.extend(f"report of {folder.name}: no cell '{cell}'" for cell in cells if cell not in report.cells)
+    errors.extend(f"report of {folder.name}: 'None' in '{cell}'" for cell in report.cells if "None" in cell)
     if report.count.get("svg", 0) < pictures or len(set(report.ids)) < len(report.ids):
         errors.append(f"report of {folder.name}: {report.count.get('svg', 0)} pictures, names of parts are used twice")
     if re.search(r"https?:|src=|<link|<script", text):
@@ -414,7 +415,7 @@ def check_intervals(folder, script):
 plot_script = arguments.root / "source" / "plot" / "taut-plot"
 
 results = run("en50318_2002_250", "Time/End=0.2", "Output/Field interval=0.05", "Statistics/Window=61,72",
-              "Catenary/Uplift positions=72, 240, 300, 360")  # only the first one moves so early
+              "Statistics/Supply=AC", "Catenary/Uplift positions=72, 240, 300, 360")  # only the first one moves so early
 compare("times of the fields", check_links(results), [0, 0.05, 0.1, 0.15, 0.2], 1)
 check_probes(results, {f"contact wire at {x} m": ("contact", x, 0, (0, 1, 0)) for x in (240, 300, 360)})
 check_droppers(results)
