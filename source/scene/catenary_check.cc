@@ -110,6 +110,9 @@ namespace taut
     {
       const LineItems &own = of_parts[i];
       check_given(own, parts[i]);
+      if (own.is_rail && own.contact.model != "beam")
+        throw EntryError("Catenary/Contact wire/Model",
+                         "a conductor rail bends: it is a 'beam', with a Bending stiffness");
       for (const auto &[wire, section] :
            {std::pair(&own.contact, "Contact wire"), std::pair(&own.messenger, "Messenger wire")})
         if (!own.is_rail && !(wire->tension > 0.))

@@ -78,14 +78,15 @@ namespace taut
     LineItems result = of_line;
     if (!kind.empty())
       result.is_rail = kind == rail;
-    const bool is_new_rail = result.is_rail && !of_line.is_rail;
+    const bool is_other_kind = result.is_rail != of_line.is_rail;
     for (const OwnEntry &entry : entries)
     {
       const std::string &text = texts.at(path_of(entry)), path = section + "/" + path_of(entry);
-      if (text.empty() && is_new_rail && std::string(entry.section) == "Contact wire")
-        throw EntryError(path,
-                         std::string("a conductor rail beside wires has its own; give it in ") +
-                             entry.unit);
+      if (text.empty() && is_other_kind && std::string(entry.section) == "Contact wire")
+        throw EntryError(path, std::string(result.is_rail
+                                               ? "a conductor rail beside wires has its own"
+                                               : "a wire beside a conductor rail has its own") +
+                                   "; give it in " + entry.unit);
       if (text.empty())
         continue;
       const double value = parse_number(text, path);
@@ -96,8 +97,12 @@ namespace taut
         throw EntryError(path, "it must be positive");
       entry.of(result) = value;
     }
-    if (is_new_rail)
-      result.contact.remaining_mass = result.contact.remaining_bending = "1"; // the wires are worn
+    if (is_other_kind)
+    {
+      // What is worn, and bends or not, is the other kind.
+      result.contact.remaining_mass = result.contact.remaining_bending = "1";
+      result.contact.model = "beam";
+    }
     const auto is_given = [&](const char *const path) { return !texts.at(path).empty(); };
     result.contact.has_mass |= is_given("Contact wire/Mass per length");
     result.contact.has_tension |= is_given("Contact wire/Tension");

@@ -42,9 +42,10 @@ Catenary/Supports: Arm mass = 2; Arm stiffness = 4e5; Arm damping = 300
 )";
 
   /// Heights of a wire at a place, over the time.
-  std::vector<double> heights(const std::string &scene, const std::string &wire, const double s)
+  std::vector<double> heights(const std::string &scene, const std::string &wire, const double s,
+                              const Overrides &overrides = {})
   {
-    return history_of(scene, {},
+    return history_of(scene, overrides,
                       [&](const taut::StepView &view)
                       {
                         std::size_t w = 0;
@@ -69,6 +70,10 @@ TEST(TensionLengths, of_other_kinds_and_wires_are_lines_of_their_own)
   EXPECT_LT(figure("rail beside wires, over a rail alone",
                    largest_difference(on_rail, rail_alone) / largest(rail_alone)),
             1e-9);
+  // It bends, whatever the wires beside it do.
+  const std::vector<double> beside_strings = heights(line(wires_and_rail, "310"), "contact rail",
+                                                     12., {"Catenary/Contact wire/Model=string"});
+  EXPECT_LT(largest_difference(beside_strings, rail_alone), 1e-9 * largest(rail_alone));
   // Each own entry has an effect.
   for (const std::string entry :
        {"wires/Messenger wire/Mass per length", "wires/Messenger wire/Tension",
@@ -96,4 +101,15 @@ TEST(TensionLengths, a_rail_beside_wires_needs_its_own_numbers)
   EXPECT_TRUE(has(massless, "must be positive")) << massless;
   EXPECT_TRUE(has(massless, "Tension length rail/Contact wire/Mass per length")) << massless;
   EXPECT_TRUE(has(error("Supports/Arm mass=two"), "'two' is not a finite number"));
+  EXPECT_TRUE(has(error_of(
+                      []
+                      {
+                        Session(line(wires_and_rail, "60"),
+                                {"Catenary/Kind=conductor rail",
+                                 "Catenary/Tension length wires/Kind=catenary"});
+                      }),
+                  "Mass per length: a wire beside a conductor rail has its own"));
+  EXPECT_TRUE(
+      has(error_of([] { Session(line(rail, "310"), {"Catenary/Contact wire/Model=string"}); }),
+          "a conductor rail bends"));
 }
